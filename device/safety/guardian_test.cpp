@@ -1,5 +1,6 @@
 #include "device/safety/guardian.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/stat.h>
@@ -35,6 +36,9 @@ namespace palpate::device {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A Force Dimension's fake library, whose device lies in a file: the guardian stops it there.
 struct Guarded {
@@ -201,6 +205,25 @@ TEST(Guardian, ProvesItselfAndLives) {
   const GuardianBeat& shared = node.guardian->shared();
   for (const std::uint32_t before = shared.lives; shared.lives < before + 5;) {
     std::this_thread::sleep_for(milliseconds(1));
+  }
+}
+
+/// A program that stands still is noticed later than one that has ended, by the time of the looks. What reaches no
+/// device says no time.
+TEST(Guardian, SaysWithinWhatTimeTheForceIsGone) {
+  for (const unsigned ms : {1U, 100U, 250U}) {
+    const auto said = [&](GuardianReach reach) -> std::string {
+      GuardianBeat beat;
+      beat.reach = reach;
+      beat.zero_within_ms = ms;
+      return Guardian(0, -1, &beat).describe();
+    };
+    const std::string ended = " within " + std::to_string(ms) + " ms after the program ends";
+    const std::string stopped = " and " + std::to_string(ms + 200) + " ms after it stands still";
+    EXPECT_THAT(said(GuardianReach::at_any_time), AllOf(HasSubstr(ended), HasSubstr(stopped)));
+    EXPECT_THAT(said(GuardianReach::once_free), AllOf(HasSubstr(ended), Not(HasSubstr(stopped))));
+    EXPECT_THAT(said(GuardianReach::looks_on), Not(HasSubstr(" ms ")));
+    for (const GuardianReach nothing : {GuardianReach::untold, GuardianReach::none}) EXPECT_EQ(said(nothing), "");
   }
 }
 

@@ -161,26 +161,32 @@ TEST(OddValues, PaddingIsWhatTheModalityMeansByIt) {
   EXPECT_THAT(padding_in("CT", false, 3, 5), ElementsAre(3, 4, 5));
 }
 
-// The largest and the least value that the stored bits hold are values; only beyond them is a word none.
+// The largest and the least value that the stored bits hold are values; only beyond them is a word none. An overlay
+// lies above the stored bits, or below them: there a word that reads like the padding is another value.
 TEST(OddValues, PaddingAtTheEndOfTheStoredBitsIsOfThoseBits) {
-  for (const bool is_signed : {false, true}) {
-    for (const bool top : {false, true}) {
-      const int end = is_signed ? (top ? 2047 : -2048) : top ? 4095 : 0;
-      const TestFolder folder;
-      write_stack(folder.path(), 2, [&](int, TestImage& image) {
-        // An overlay above bit 11: the padding is known by its lower bits alone.
-        image.value = [=](int i, int) { return (i == 0 ? end & 0xFFF : 100 + i) | 0x3000; };
-        image.edit = [&](DcmDataset& d) {
-          put(d, DCM_BitsStored, 12);
-          put(d, DCM_HighBit, 11);
-          put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
-          put(d, DCM_PixelPaddingValue, end & 0xFFFF);
-        };
-      });
-      const Volume volume = load(find_in(folder).series.at(0));
-      for (int i = 0; i < 6; ++i) {
-        EXPECT_EQ(volume.is_padding(i, 1, 1), i == 0) << is_signed << top;
-        EXPECT_EQ(volume.value_at(i, 1, 1), i == 0 ? end : 100 + i) << is_signed << top;
+  for (const int below : {0, 4}) {
+    for (const bool is_signed : {false, true}) {
+      for (const bool top : {false, true}) {
+        const int end = is_signed ? (top ? 2047 : -2048) : top ? 4095 : 0;
+        const auto value_at = [=](int i) { return i == 0 ? end : i == 5 ? end >> below : 100 + i; };
+        const TestFolder folder;
+        write_stack(folder.path(), 2, [&](int, TestImage& image) {
+          image.value = [=](int i, int) {
+            const int overlay = below > 0 ? 3 : 0x3000;
+            return below > 0 && i == 5 ? end & 0xFFFF : (value_at(i) & 0xFFF) << below | overlay;
+          };
+          image.edit = [&](DcmDataset& d) {
+            put(d, DCM_BitsStored, 12);
+            put(d, DCM_HighBit, 11 + below);
+            put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
+            put(d, DCM_PixelPaddingValue, end & 0xFFFF);
+          };
+        });
+        const Volume volume = load(find_in(folder).series.at(0));
+        for (int i = 0; i < 6; ++i) {
+          EXPECT_EQ(volume.is_padding(i, 1, 1), value_at(i) == end) << is_signed << top << below << i;
+          EXPECT_EQ(volume.value_at(i, 1, 1), value_at(i)) << is_signed << top << below << i;
+        }
       }
     }
   }

@@ -71,12 +71,12 @@ TEST(StrokePicture, ShowsEveryForceOnceInTheColorOfWhoPushes) {
 }
 
 /// A stroke along y at this distance from the middle of a ball of 25 mm meets it at a slant.
-std::vector<MetBoundary> met_beside_the_middle(double x_mm, Profile& profile) {
+std::vector<MetBoundary> met_beside_the_middle(double x_mm, Profile& profile, double begin_mm = -29) {
   const auto volume = std::make_shared<const io::Volume>(testdata::scan(
       testdata::make_sphere(25), testdata::make_geometry({.size = glm::ivec3(60)}), {.noise = 40, .seed = 3}));
   const modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
-  profile = {.stroke = run_stroke(*felt.plan, *felt.source, {x_mm, -29, 0}, {x_mm, -10, 0}, 50),
+  profile = {.stroke = run_stroke(*felt.plan, *felt.source, {x_mm, begin_mm, 0}, {x_mm, -10, 0}, 50),
              .plan = felt.plan,
              .scene = scene,
              .unit = volume->unit};
@@ -100,9 +100,22 @@ TEST(StrokePicture, HasABandAsWideAsTheBoundaryIsUncertainAlongTheStroke) {
       EXPECT_DOUBLE_EQ(band->to, met.depth_mm + *met.known_along_mm);
     }
   }
-  // The ball's surface is 4 mm along the straight stroke, 9 mm along the other.
-  EXPECT_NEAR(straight.met.front().depth_mm, 4, 1);
-  EXPECT_NEAR(slanted.met.front().depth_mm, 9, 1.5);
+}
+
+/// By the ball's own shape; and a stroke that begins earlier has its boundaries as much deeper.
+TEST(StrokePicture, ABoundaryIsAsDeepAsItsSurfaceIsAlongTheStroke) {
+  for (const double x : {0.0, 8.0, 15.0}) {
+    std::vector<double> places;  // mm, along y
+    for (const double begin : {-29.0, -27.3}) {
+      Profile profile;
+      const std::vector<MetBoundary> met = met_beside_the_middle(x, profile, begin);
+      ASSERT_FALSE(met.empty());
+      printf("%g %g: %g true %g\n", x, begin, met.front().depth_mm, -begin - std::sqrt(25 * 25 - x * x));
+      EXPECT_NEAR(met.front().depth_mm, -begin - std::sqrt(25 * 25 - x * x), 0.5) << x;
+      places.push_back(begin + met.front().depth_mm);
+    }
+    EXPECT_NEAR(places[0], places[1], 0.05) << "the probe moves by 0.05 mm in a tick";
+  }
 }
 
 TEST(StrokePicture, ItsTableTellsHowWellTheHeldBoundaryIsKnown) {
