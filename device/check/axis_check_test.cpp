@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <string>
 #include <vector>
@@ -121,6 +122,8 @@ TEST(AxisCheck, EndsWhereTheUserSaysSoAndWhereTheStylusGoes) {
     EXPECT_EQ(check.ended, !unplugged);
     EXPECT_EQ(check.fault, unplugged ? Fault::device_lost : Fault::none);
     EXPECT_EQ(pushes, unplugged ? 1 : 2);
+    const std::array<Felt, 3> felt{Felt::as_said, unplugged ? Felt::nothing : Felt::stop, Felt::nothing};
+    EXPECT_EQ(check.felt, felt) << "what was not pushed was not felt";
     EXPECT_EQ(rig.force(), Vec3(0));
   }
 }
@@ -153,6 +156,10 @@ TEST(AxisCheck, PushesOnlyWhatCanBePushed) {
     const bool can = state == State::idle || state == State::ramping || state == State::active;
     EXPECT_EQ(check.ended, !can) << name_of(state);
     EXPECT_EQ(!asked.axes.empty(), can) << name_of(state);
+    if (!can) {
+      const std::array<Felt, 3> nothing{Felt::nothing, Felt::nothing, Felt::nothing};
+      EXPECT_EQ(check.felt, nothing) << name_of(state);
+    }
     EXPECT_EQ(stylus.strongest > 0, can) << name_of(state);
   }
 }

@@ -86,6 +86,7 @@ TEST(HaplyService, GoesIdleByItselfWhereNobodyAsks) {
       protocol.receive(std::span(packet).first(size), link->now());
     if (const std::size_t due = protocol.step(Vec3(0, 1, 0), link->now(), packet))
       link->send(std::span(packet).first(due));
+    EXPECT_TRUE(link->flush(1)) << "all has left";
   }
   while (bench.server.acting() != Vec3(0)) std::this_thread::yield();
 }

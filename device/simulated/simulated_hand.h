@@ -50,7 +50,7 @@ class Tremor {
     double frequency = 0;  // rad/s
     double phase = 0;
   };
-  double amplitude_ = 0;
+  double amplitude_;  // m
   std::array<std::array<Sine, sines>, 3> axes_{};
 };
 
