@@ -16,6 +16,7 @@ reason, in .ci/equivalent_mutants.
 """
 
 import argparse
+import itertools
 import os
 import pathlib
 import queue
@@ -287,8 +288,8 @@ class Bench:
             if mutant not in left:
                 mutant.place, mutant.marked = None, True
 
-    def look_at_suites(self, jobs):
-        """How long each suite takes, and which places it runs."""
+    def look_at_suites(self, jobs, near=None):
+        """How long each suite takes, and which places it runs. Where some are near, others only if they are quick."""
         listed = subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
         suites = [line.split()[0].rstrip(".") for line in listed.splitlines()
                   if line[:1].strip() and not line.startswith("Running")]
@@ -299,16 +300,15 @@ class Bench:
                 places.write(bytes(PLACES))
                 places.flush()
                 began = time.time()
-                if self.passes([suite], LONGEST_SUITE_S, PALPATE_SLIPS_RUN=places.name):
+                is_near = near is None or near & set(suite.split("/"))
+                code = self.outcome_of([f"{suite}.*"], LONGEST_SUITE_S if is_near else 3, PALPATE_SLIPS_RUN=places.name)
+                if code == 0:
                     self.suites[suite] = (time.time() - began, pathlib.Path(places.name).read_bytes())
-                else:
+                elif is_near or code != TIMED_OUT:
                     print(f"{suite} fails without any slip, and is left out:\n{self.log()[-800:]}", flush=True)
 
         serve(look, [suite for suite in suites if not re.search(r"Shared|DISABLED_", suite)], jobs, time.time() + 7200)
         print(f"{self.target}: {len(self.suites)} suites take {sum(seconds for seconds, _ in self.suites.values()):.0f} s", flush=True)
-
-    def passes(self, suites, seconds, **more):
-        return self.outcome_of([f"{suite}.*" for suite in suites], seconds, **more) == 0
 
     def outcome_of(self, tests, seconds, **more):
         """The exit code of the program for these tests."""
@@ -341,8 +341,6 @@ class Bench:
 
     def judge_alone(self, mutant):
         """The same of a slip that is compiled by itself, and so cannot be left out; or not C++."""
-        if mutant.no_code:
-            return "not C++"
         lines = (ROOT / mutant.path).read_text().split("\n")
         lines[mutant.number - 1] = mutant.after
         before = (self.tree / mutant.path).read_bytes()
@@ -381,10 +379,13 @@ def try_slips(bench, mutants, account, jobs, seconds, quickly=False):
             account.tell(mutant, outcome)
 
     bench.compile_together(mutants)
-    bench.look_at_suites(jobs)
+    bench.look_at_suites(jobs, set().union(*(suites_near(mutant.path) for mutant in mutants)) if quickly else None)
     alone = [mutant for mutant in mutants if mutant.marked]
     together = [mutant for mutant in mutants if not mutant.marked]
     print(f"{bench.target}: {len(together)} slips are chosen at run time, {len(alone)} are compiled alone", flush=True)
+    for mutant in [mutant for mutant in alone if mutant.no_code]:
+        tell(mutant, "not C++")
+        alone.remove(mutant)
     deadline = time.time() + seconds
     serve(lambda mutant: tell(mutant, bench.judge(mutant, quickly=quickly, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
     serve(lambda mutant: tell(mutant, bench.judge_alone(mutant)), alone, 1, deadline)
@@ -444,7 +445,9 @@ def main():
     options = parser.parse_args()
 
     enums = all_enumerations()
-    chosen = [mutant for module, files in lines_to_change(options).items() for mutant in chosen_of(module, files, options, enums)]
+    samples = [chosen_of(module, files, options, enums) for module, files in lines_to_change(options).items()]
+    # In turn, so that each has its share of the time.
+    chosen = [mutant for turn in itertools.zip_longest(*samples) for mutant in turn if mutant]
     if options.list:
         print("\n".join(map(str, chosen)))
         return
