@@ -173,38 +173,43 @@ TEST(FalconExchange, TellsItsButtons) {
   }
 }
 
-/// Connected anew: homing, at rest, no reply owed, no doubt left; poses are counted on.
+/// Connected anew: homing, at rest, no reply owed, no doubt left, even where no good pose has ended it; poses are
+/// counted on.
 TEST(FalconExchange, ConnectedAnewItKnowsNothingOfBefore) {
-  Exchange one;
-  one.begin();
-  for (int n = 0; n < 39; ++n) {
-    one.now += 2 * ms;
-    one.reply({4000, -4000, -4000});
-    one.step();
-    EXPECT_TRUE(one.protocol.status().doubtful) << "the link takes the force away";
+  for (const bool has_good_pose : {true, false}) {
+    Exchange one;
+    one.begin();
+    for (int n = 0; n < 39; ++n) {
+      one.now += 2 * ms;
+      one.reply({4000, -4000, -4000});
+      one.step();
+      EXPECT_TRUE(one.protocol.status().doubtful) << "the link takes the force away";
+    }
+    EXPECT_EQ(one.protocol.status().state, State::idle) << "almost in doubt for too long";
+    one.now += 20.05 * ms;
+    ASSERT_TRUE(one.step());
+    const std::uint64_t news = one.protocol.status().news;
+    one.connect();
+    EXPECT_EQ(one.protocol.status().state, State::homing);
+    EXPECT_EQ(one.protocol.status().news, news);
+    EXPECT_TRUE(one.step()) << "a command is due at once";
+    if (has_good_pose) {
+      one.reply();
+      EXPECT_TRUE(one.pushes(one.step())) << "no surplus reply is waited for";
+    }
+    for (int n = 0; n < 39; ++n) {
+      one.now += 2 * ms;
+      one.reply({4000, -4000, -4000});
+      one.step();
+    }
+    EXPECT_EQ(one.protocol.status().fault, LinkFault::none);
+    for (int n = 0; n < 3; ++n) {
+      one.now += 2 * ms;
+      one.reply({4000, -4000, -4000});
+      one.step();
+    }
+    EXPECT_EQ(one.protocol.status().fault, LinkFault::unreachable_pose);
   }
-  EXPECT_EQ(one.protocol.status().state, State::idle) << "almost in doubt for too long";
-  one.now += 20.05 * ms;
-  ASSERT_TRUE(one.step());
-  const std::uint64_t news = one.protocol.status().news;
-  one.connect();
-  EXPECT_EQ(one.protocol.status().state, State::homing);
-  EXPECT_EQ(one.protocol.status().news, news);
-  EXPECT_TRUE(one.step()) << "a command is due at once";
-  one.reply();
-  EXPECT_TRUE(one.pushes(one.step())) << "no surplus reply is waited for";
-  for (int n = 0; n < 39; ++n) {
-    one.now += 2 * ms;
-    one.reply({4000, -4000, -4000});
-    one.step();
-  }
-  EXPECT_EQ(one.protocol.status().fault, LinkFault::none);
-  for (int n = 0; n < 3; ++n) {
-    one.now += 2 * ms;
-    one.reply({4000, -4000, -4000});
-    one.step();
-  }
-  EXPECT_EQ(one.protocol.status().fault, LinkFault::unreachable_pose);
 }
 
 }  // namespace

@@ -184,6 +184,14 @@ TEST(HaplyLimits, TheArmThatIsNamedIsTaken) {
   EXPECT_THAT(refused([&] { other.connect(link); }), ::testing::HasSubstr("Haply A1: its service runs"));
 }
 
+/// What the service listens at as it is installed.
+TEST(HaplyLimits, ItsServiceIsLookedForWhereItIsInstalled) {
+  const HaplySettings settings;
+  EXPECT_EQ(settings.host, "localhost");
+  EXPECT_EQ(settings.port, 10001);
+  EXPECT_EQ(settings.events_port, 10020);
+}
+
 TEST(HaplyLimits, ItsSettingsLieWithinTheirLimits) {
   const struct {
     double force, stiffness;
