@@ -1,6 +1,7 @@
 /// What a chain remembers changes no answer: a balance that differs from the last one in anything is solved anew.
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <array>
 #include <cmath>
@@ -247,6 +248,18 @@ TEST(ChainLaws, TheExactSolverKeepsToTheCapThatIsSet) {
     }
   }
   EXPECT_GE(met, 10) << "else no cap was met";
+}
+
+/// What is told is what the heap gives, wherever the heap tells.
+TEST(ChainLaws, TheMemoryOfTheExactSolverIsWhatItTakes) {
+  const auto taken = [] { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); };
+  for (const std::size_t capacity : {1000U, 30000U}) {
+    const double before = taken();
+    const ExactScratch scratch(capacity);
+    const double bytes = taken() - before;
+    if (bytes == 0) GTEST_SKIP() << "this heap does not tell";
+    EXPECT_NEAR(static_cast<double>(scratch.memory_bytes()), bytes, 0.01 * bytes + 4096) << capacity;
+  }
 }
 
 TEST(ChainLaws, ItsMemoryIsThatOfItsCapacity) {

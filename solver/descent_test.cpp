@@ -29,6 +29,13 @@ TEST(Descent, StepShrinksWhereTheResidualTurns) {  // equation (23)
   EXPECT_NEAR(solve_descent(balance, options, {}).proxy.x, 1.79 * mm, 1e-17);
 }
 
+TEST(Descent, EndsAtItsCapWhereTheStepDoesNotShrink) {
+  const Balance balance{400, {1.5 * mm, 0, 0}, Vec3{0}, {}};
+  const Solution solution = solve_descent(balance, {.reduction = 1}, {});
+  EXPECT_EQ(solution.outcome, Outcome::capped);
+  EXPECT_EQ(solution.iterations, 10000);
+}
+
 TEST(Descent, EndsWhereTheStepIsBelowTheSmallest) {
   const std::array primitives{make_directed_force(0.4, {0, 1, 0})};
   const Balance balance{400, {1.5 * mm, 0, 0}, Vec3{0}, primitives};

@@ -71,6 +71,10 @@ TEST(ActiveSet, TheFlatMeetsAllThatIsLockedAndHasTheDirectionsThatAreLeft) {
     settle(active, locked.placed, z);
     const double doubt = doubt_of(active, locked.placed, z);
     EXPECT_LT(doubt, 1e-17) << seed;
+    // Of a place beside the flat it is at least the distance.
+    const Vec3 off = Random(seed + 2).normal_vector(1e-3);
+    const double beside = glm::length(off - within(active, fine(off)).hi());
+    EXPECT_GE(doubt_of(active, locked.placed, z + fine(off)), beside * (1 - 1e-9)) << seed;
     const Vec3 free = within(active, fine(Random(seed + 1).normal_vector(1))).hi();
     for (int j = 0; j < active.count; ++j) {
       const Placed& primitive = locked.placed[active.locked[j]];

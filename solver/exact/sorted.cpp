@@ -32,7 +32,7 @@ void Sorted::give_back(std::span<Vec3> forces, Solution& solution) const {
   for (std::size_t i = 0; i < count_; ++i) {
     forces[order_[i]] = forces_[i];
   }
-  if (solution.rejection && solution.rejection->primitive < count_) {
+  if (solution.rejection) {  // a refusal of the search names a primitive
     solution.rejection->primitive = order_[solution.rejection->primitive];
   }
 }
