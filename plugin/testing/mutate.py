@@ -216,7 +216,8 @@ class Bench:
         # variable unused: that is for the tests to see, not for the compiler.
         careless = WORK / "careless"
         WORK.mkdir(parents=True, exist_ok=True)
-        careless.write_text('#!/bin/sh\nexec "$@" -w -Wno-narrowing\n')
+        # A precompiled header serves only the options that it was made with.
+        careless.write_text('#!/bin/sh\ncase "$*" in *cmake_pch*) exec "$@" -w -Wno-narrowing ;; esac\nexec "$@" -w -Wno-narrowing -O1\n')
         careless.chmod(0o755)
         self.environment = {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1", "CCACHE_SLOPPINESS": "pch_defines,time_macros",
                             "CCACHE_READONLY": "1", "CCACHE_PREFIX": str(careless)}
@@ -406,6 +407,8 @@ def chosen_of(module, files, options, enums):
         generator = random.Random(options.seed)
         generator.shuffle(lines)
         chosen = [generator.choice(line) for line in lines[: options.count]]
+    if options.without_headers:
+        chosen = [mutant for mutant in chosen if not mutant.path.endswith(".h")]
     print(f"{module}: {len(lines)} lines can have a slip; {len(chosen)} are tried, seed {options.seed}", flush=True)
     return chosen
 
@@ -437,6 +440,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
     parser.add_argument("--again", metavar="FILE", help="only those that survived in the run that printed this file")
+    parser.add_argument("--without-headers", action="store_true",
+                        help="leave out the slips of the sample that lie in headers, after which most is compiled anew")
     parser.add_argument("--equivalents", action="store_true",
                         help="those of .ci/equivalent_mutants")
     parser.add_argument("--quickly", action="store_true",
