@@ -220,6 +220,7 @@ SCENARIOS = [
     "lines_are_of_the_slice_that_is_shown",
     "the_place_under_a_dragged_handle_is_told",
     "a_look_is_of_its_scan",
+    "a_look_comes_back_with_its_state",
     "four_clicks",
     "letting_go",
     "escape_releases",

@@ -28,9 +28,9 @@ void PanelParts::build_toolbar() {
   auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
   look_box = new VolumeLookBox(window);
   toolbar = new ClinicalToolbar(*new WindowBox(scans, readers.views(), window), *look_box, window);
-  QObject::connect(look_box, &VolumeLookBox::felt_chosen, &dock, [this] { contours.set_surfaces(true); });
+  QObject::connect(look_box, &VolumeLookBox::felt_chosen, &dock, [this] { show_felt(true); });
   QObject::connect(look_box, &VolumeLookBox::look_chosen, &dock, [this](const VolumeLook& chosen) {
-    contours.set_surfaces(false);
+    show_felt(false);
     change_volume([&](vtkSMProxy& volume) { set_volume_look(volume, chosen); });
   });
   window->addToolBar(Qt::TopToolBarArea, toolbar);

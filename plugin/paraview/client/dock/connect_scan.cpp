@@ -74,6 +74,9 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   flow.set_volume(handle.volume);
   filter->refresh();
   draw_contours();
+  const bool felt = restored && kept.text(volume_look_key) == felt_look;
+  if (felt) look_box->choose_felt();
+  show_felt(felt);
   touching.begin_outside();
   show_structures(handle);
   note_scan(handle);

@@ -56,6 +56,12 @@ void PanelParts::change_volume(const std::function<void(vtkSMProxy&)>& change) {
   read_opacity();
 }
 
+/// A state file says so, too: nothing of ParaView's own does.
+void PanelParts::show_felt(bool felt) {
+  contours.set_surfaces(felt);
+  kept.put(volume_look_key, felt ? felt_look : "");
+}
+
 /// What is seen of the volume, as it is shown now.
 void PanelParts::read_opacity() {
   if (!readers.source()) return;

@@ -60,6 +60,10 @@ class VolumeLookBox;
 class WindowBox;
 struct CorrectedOutline;
 
+/// Of what the pipeline keeps beside scene and marks.
+inline constexpr const char* volume_look_key = "VolumeLook";
+inline constexpr const char* felt_look = "felt";
+
 /// Members in the order in which they lean on each other.
 struct PanelParts {
   Q_DECLARE_TR_FUNCTIONS(PanelParts)
@@ -132,6 +136,7 @@ struct PanelParts {
   void draw_contours(Pace pace = Pace::stepped);
   void show_frame_values();
   void change_volume(const std::function<void(vtkSMProxy&)>& change);
+  void show_felt(bool felt);
   void read_opacity();
   // connect_session.cpp
   void connect_session();

@@ -3,15 +3,33 @@
 #include <pqApplicationCore.h>
 #include <pqDeleteReaction.h>
 #include <pqLoadStateReaction.h>
+#include <pqRecentFilesMenu.h>
 
 #include <QAction>
+#include <QDropEvent>
 #include <QEvent>
 #include <QMainWindow>
+#include <QMenu>
+#include <QMimeData>
 #include <QTimer>
+#include <QUrl>
 
+#include <algorithm>
 #include <utility>
 
 namespace palpate::plugin {
+namespace {
+
+bool names_state(const QString& file) {
+  return file.contains(QLatin1String(".pvsm"), Qt::CaseInsensitive);
+}
+
+bool brings_state(const QDropEvent& dropped) {
+  const QList<QUrl> urls = dropped.mimeData()->urls();
+  return std::any_of(urls.begin(), urls.end(), [](const QUrl& url) { return names_state(url.fileName()); });
+}
+
+}  // namespace
 
 HostGuards::HostGuards(QMainWindow& window, May may_end, May may_replace, QObject* parent)
     : QObject(parent), window_(window), may_end_(std::move(may_end)), may_replace_(std::move(may_replace)) {
@@ -31,6 +49,19 @@ void HostGuards::guard_actions() {
     if (reaction->parentAction()->objectName() != QLatin1String("actionDelete_All")) continue;  // one source alone
     guard(*reaction->parentAction(), *reaction, may_replace_, [] { pqDeleteReaction::deleteAll(); });
   }
+  for (auto* const recent : window_.findChildren<pqRecentFilesMenu*>()) guard_recent(*recent);
+}
+
+/// The same for the menu of recent files, which also lists data: that takes nothing away.
+void HostGuards::guard_recent(pqRecentFilesMenu& recent) {
+  for (auto* const menu : window_.findChildren<QMenu*>()) {
+    if (!QObject::disconnect(menu, SIGNAL(triggered(QAction*)), &recent, SLOT(onOpenResource(QAction*)))) continue;
+    connect(menu, &QMenu::triggered, &recent, [this, &recent](QAction* chosen) {
+      const bool is_state = names_state(chosen->text()) || names_state(chosen->data().toString());
+      if (is_state && !may_replace_()) return;
+      QMetaObject::invokeMethod(&recent, "onOpenResource", Q_ARG(QAction*, chosen));
+    });
+  }
 }
 
 /// ParaView's own is done after the question, and not beside it.
@@ -42,7 +73,10 @@ void HostGuards::guard(QAction& action, QObject& done_by, const May& may, const 
 }
 
 bool HostGuards::eventFilter(QObject* watched, QEvent* event) {
-  if (watched != &window_ || event->type() != QEvent::Close || may_end_()) return QObject::eventFilter(watched, event);
+  if (watched != &window_) return QObject::eventFilter(watched, event);
+  const bool closes = event->type() == QEvent::Close;
+  const bool loads = event->type() == QEvent::Drop && brings_state(*static_cast<QDropEvent*>(event));
+  if (!(closes && !may_end_()) && !(loads && !may_replace_())) return QObject::eventFilter(watched, event);
   event->ignore();
   return true;
 }

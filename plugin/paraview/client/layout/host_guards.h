@@ -1,7 +1,7 @@
 #pragma once
 
-/// What of ParaView takes the user's work away asks first: its window's close button, File > Exit, File > Load State
-/// and Edit > Reset Session.
+/// What of ParaView takes the user's work away asks first: its window's close button, File > Exit, File > Load State,
+/// a state among the recent files, one that is dropped on the window, and Edit > Reset Session.
 
 #include <QObject>
 
@@ -9,6 +9,7 @@
 
 class QAction;
 class QMainWindow;
+class pqRecentFilesMenu;
 
 namespace palpate::plugin {
 
@@ -26,6 +27,7 @@ class HostGuards : public QObject {
 
  private:
   void guard_actions();
+  void guard_recent(pqRecentFilesMenu& recent);
   void guard(QAction& action, QObject& done_by, const May& may, const std::function<void()>& go_on);
 
   QMainWindow& window_;

@@ -22,6 +22,8 @@ class VolumeLookBox : public QComboBox {
   void set_looks(const std::vector<VolumeLook>& looks, std::optional<std::size_t> chosen);
   /// The scene's boundaries are shown, whichever they become.
   bool is_felt() const;
+  /// Says so of what was restored; emits nothing.
+  void choose_felt() { setCurrentIndex(static_cast<int>(looks_.size())); }
 
  signals:
   void look_chosen(const palpate::plugin::VolumeLook& look);

@@ -174,7 +174,8 @@ bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far)
 }
 
 bool StylusViews::show(const SessionStatus& look) {
-  std::erase_if(views_, [](const auto& one) { return !one->view; });
+  // ParaView handles events while it closes a view, whose widget has gone by then.
+  std::erase_if(views_, [](const auto& one) { return !one->view || !one->view->widget(); });
   if (views_.empty()) return false;
   follow_scan();
   const qint64 now_ms = clock_.elapsed();

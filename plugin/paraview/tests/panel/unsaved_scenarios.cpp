@@ -5,14 +5,22 @@
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 #include <pqDeleteReaction.h>
+#include <pqStandardRecentlyUsedResourceLoaderImplementation.h>
 
 #include <QAction>
+#include <QCoreApplication>
 #include <QDialog>
 #include <QDoubleSpinBox>
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QFile>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMimeData>
 #include <QTimer>
+#include <QUrl>
 
 #include <functional>
 #include <string>
@@ -57,6 +65,30 @@ void name_state(const QString& file) {
     name.setText(file);
     QMetaObject::invokeMethod(&dialog, "accept");
   });
+}
+
+/// In ParaView's menu of recent files.
+void choose_recent(const QString& state) {
+  QWidget& window = *pqCoreUtilities::mainWidget();
+  pqStandardRecentlyUsedResourceLoaderImplementation::addStateFileToRecentResources(
+      pqActiveObjects::instance().activeServer(), state);
+  auto* const menu = window.findChild<QMenu*>(QStringLiteral("menuRecentFiles"));
+  expect(menu != nullptr, "there is a menu of recent files");
+  emit menu->aboutToShow();
+  for (QAction* const action : menu->actions()) {
+    if (action->text().contains(QFileInfo(state).fileName())) return action->trigger();
+  }
+  expect(false, "the state is in it");
+}
+
+void drop_on_window(const QString& file) {
+  QMimeData dropped;
+  dropped.setUrls({QUrl::fromLocalFile(file)});
+  QDragEnterEvent enter(QPoint(1, 1), Qt::CopyAction, &dropped, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(pqCoreUtilities::mainWidget(), &enter);
+  expect(enter.isAccepted(), "ParaView takes what is dropped on its window");
+  QDropEvent event(QPointF(1, 1), Qt::CopyAction, &dropped, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(pqCoreUtilities::mainWidget(), &event);
 }
 
 void another_scan_is_asked_about() {
@@ -131,6 +163,15 @@ void the_end_is_asked_about() {
     wait_ms(300);
     expect(window.isVisible() && reader_in_pipeline() != 0, "all stays as it is");
   }
+  const QString saved = beside_pictures("unsaved-recent.pvsm");
+  QFile(saved).open(QIODevice::WriteOnly);
+  in_dialog_of(
+      "a state among the recent files", [&] { choose_recent(saved); },
+      [](QDialog& question) { answer(question, "Cancel"); });
+  in_dialog_of(
+      "a state that is dropped", [&] { drop_on_window(saved); }, [](QDialog& question) { answer(question, "Cancel"); });
+  wait_ms(300);
+  expect(window.isVisible() && reader_in_pipeline() != 0, "no state takes the place of what is open");
   in_next_file_dialog([](QDialog& dialog, QLineEdit&) { dialog.reject(); });
   in_dialog_of(
       "closing once more", [&] { window.close(); }, [](QDialog& question) { answer(question, "Save"); });

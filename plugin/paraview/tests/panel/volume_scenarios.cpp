@@ -257,6 +257,49 @@ void a_look_is_of_its_scan() {
       "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
 }
 
+QString saved_state(const char* name) {
+  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QLatin1Char('/') + QLatin1String(name);
+  expect(pqApplicationCore::instance()->saveState(file), std::string("the state is saved: ") + name);
+  return file;
+}
+
+/// A preset is in the colors that ParaView keeps; that the felt boundaries are shown is not.
+void a_look_comes_back_with_its_state() {
+  scan_is_shown();
+  const auto choose = [](const char* look) {
+    auto& looks = find<QComboBox>("palpateVolumeLook");
+    looks.setCurrentText(QLatin1String(look));
+    emit looks.activated(looks.currentIndex());
+  };
+  const auto expect_look = [](const char* look) {
+    const QString now = find<QComboBox>("palpateVolumeLook").currentText();
+    expect(now == look, std::string("the box says ") + look + ", not " + now.toStdString());
+  };
+  choose("CT bone");
+  const std::vector<double> bone = volume_colors();
+  const QString as_bone = saved_state("look-bone.pvsm");
+  choose("CT skin");
+  choose("Felt boundaries");
+  wait_for(
+      "the surface is there", [] { return surface_seen().most_mm > 0; }, 20);
+  const QString as_felt = saved_state("look-felt.pvsm");
+  load_state(as_bone);
+  expect_look("CT bone");
+  expect(volume_colors() == bone && surface_seen().most_mm == 0, "it is shown so");
+  wait_for(
+      "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
+  load_state(as_felt);
+  expect_look("Felt boundaries");
+  wait_for(
+      "the surface is there again", [] { return surface_seen().most_mm > 0 && !scan_is_drawn(renderer()); }, 20);
+  save_screen("look-restored");
+  const unsigned before = reader_in_pipeline();
+  drop_folder(qEnvironmentVariable("PALPATE_OPEN"));
+  another_scan_is_shown(before);
+  expect_look("CT skin");
+  expect(surface_seen().most_mm == 0, "a scan that is opened has its own look");
+}
+
 /// How often the scan is drawn in the volume view, from the view's first picture on.
 struct Drawings {
   Drawings() {
@@ -401,6 +444,7 @@ const Scenarios& volume_scenarios() {
   static const Scenarios scenarios{{"the_table_is_cut_away", the_table_is_cut_away},
                                    {"the_volume_lies_in_the_patient", the_volume_lies_in_the_patient},
                                    {"a_look_is_of_its_scan", a_look_is_of_its_scan},
+                                   {"a_look_comes_back_with_its_state", a_look_comes_back_with_its_state},
                                    {"the_volume_turns", the_volume_turns},
                                    {"a_picture_at_rest_comes_in_turns", a_picture_at_rest_comes_in_turns},
                                    {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
