@@ -223,6 +223,7 @@ SCENARIOS = [
     "a_look_comes_back_with_its_state",
     "four_clicks",
     "letting_go",
+    "nothing_moves",
     "escape_releases",
     "escape_releases_under_a_dialog",
     "a_tissue_is_switched",

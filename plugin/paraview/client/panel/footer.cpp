@@ -228,18 +228,19 @@ void Footer::show_distance(const SessionStatus& look) {
   const std::string& name = scene.structures[look.nearest->structure].name;
   const QString words = QString::fromStdString(distance_in_words(look.nearest->distance_mm, name));
   distance_->setText(look.nearest->within_margin ? tr("⚠ %1: within its margin").arg(words) : words);
-  distance_->setStyleSheet(look.nearest->within_margin
-                               ? QStringLiteral("background: #d55e00; color: white; font-weight: bold; padding: 2px")
-                               : QString());
+  const QString style = look.nearest->within_margin
+                            ? QStringLiteral("background: #d55e00; color: white; font-weight: bold; padding: 2px")
+                            : QString();
+  if (distance_->styleSheet() != style) distance_->setStyleSheet(style);
 }
 
 void Footer::show_look(const SessionStatus& look) {
   show_state(look);
   show_distance(look);
   if (!look.connected && !look.replayed) {
-    force_->clear();
+    force_->setText({});  // clear() paints the whole window anew, thirty times a second
     depth_->setText(tr("no stylus"));
-    tissue_->clear();
+    tissue_->setText({});
     solver_->setText(QStringLiteral("–"));
     tick_->setText(QStringLiteral("–"));
     return;
@@ -256,9 +257,10 @@ void Footer::show_look(const SessionStatus& look) {
   depth_->setToolTip(depth_->text());
   const QString tissue = QString::fromStdString(look.tissue);
   const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
-  tissue_->setText(std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)
-                                             : tr("outside the scan"));
-  if (!scan_open_) tissue_->clear();  // the tick is of a scan that is gone
+  // Else the tick is of a scan that is gone.
+  tissue_->setText(!scan_open_                 ? QString()
+                   : std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)
+                                               : tr("outside the scan"));
   const double error_mm = 1e3 * tick.error_bound_m;
   constexpr double small_mm = 1e-9;
   solver_->setText(tr("%1 solver, error below %2 mm")

@@ -11,6 +11,7 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
+#include <QEventLoop>
 #include <QGuiApplication>
 #include <QImage>
 #include <QLineEdit>
@@ -19,9 +20,13 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QScreen>
+#include <QTimer>
 #include <QToolButton>
 
+#include <sys/resource.h>
+
 #include <cstdio>
+#include <map>
 #include <stdexcept>
 
 #include "plugin/paraview/client/model/session_controller.h"
@@ -325,6 +330,66 @@ void first_image() {
   print_stretches(watch);
 }
 
+double processor_s() {
+  rusage used;
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& of) {
+    return static_cast<double>(of.tv_sec) + 1e-6 * static_cast<double>(of.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// Counts what is painted, by name: whatever is painted anew costs a picture of the whole window.
+class Painted : public QObject {
+ public:
+  Painted() { qApp->installEventFilter(this); }
+  ~Painted() override {
+    for (const auto& [name, count] : counts_) {
+      if (count > 1) std::printf("nothing_moves: painted %d times: %s\n", count, name.toUtf8().constData());
+    }
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Paint) {
+      ++counts_[watched->objectName() + QLatin1Char(' ') + QLatin1String(watched->metaObject()->className())];
+    }
+    return false;
+  }
+
+ private:
+  std::map<QString, int> counts_;
+};
+
+/// Part of a core that the whole program takes, in percent, over some seconds in which nobody does anything.
+double processor_at_rest() {
+  constexpr int ms = 10'000;
+  const double before = processor_s();
+  const Painted painted;
+  QEventLoop rest;  // polls nothing
+  QTimer::singleShot(ms, &rest, &QEventLoop::quit);
+  rest.exec();
+  return 100 * (processor_s() - before) / (1e-3 * ms);
+}
+
+/// A measurement that is a test, too, with room for a busy machine: a scan is open and nothing moves.
+void nothing_moves() {
+  scan_is_shown();
+  wait_for("its tissues are found", [] { return !find<QWidget>("palpateStudying").isVisible(); });
+  for (int n = 0; n < 3; ++n) views_rest();
+  const double open = processor_at_rest();
+  click("palpateConnect");
+  for (int n = 0; n < 3; ++n) views_rest();
+  const double connected = processor_at_rest();
+  click("palpateFeel");
+  for (int n = 0; n < 3; ++n) views_rest();
+  const double felt = processor_at_rest();
+  std::printf(
+      "nothing_moves: %.1f %% of a core with a scan open, %.1f %% with a stylus connected, %.1f %% with its force on\n",
+      open, connected, felt);
+  expect(open < 5 && connected < 10, "nothing is done over and over");
+}
+
 /// The program ends with the button down and the stylus pressed: by itself, with exit code 0.
 void closed_in_mid_contact() {
   feel();
@@ -345,13 +410,14 @@ const Scenarios scenarios{
     {"what_is_to_be_known_is_said", what_is_to_be_known_is_said},
     {"main_thread", main_thread},
     {"first_image", first_image},
+    {"nothing_moves", nothing_moves},
     {"closed_in_mid_contact", closed_in_mid_contact},
 };
 
 /// What is tested is the panel, however busy the machine is. Measurements have the computer's clock.
 void choose_clock(const std::string& name) {
   if (!widget("PalpatePanel") || name == "main_thread" || name == "first_image" || name.starts_with("rounds_of_") ||
-      name == "memory_of_a_scan")
+      name == "memory_of_a_scan" || name == "nothing_moves")
     return;
   const bool left_alone = name == "a_short_press_counts";
   panel_session().set_clock([left_alone](double period_s) { return panel_clock(period_s, left_alone); });
