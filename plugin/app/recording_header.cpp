@@ -1,7 +1,7 @@
 #include "plugin/app/recording_header.h"
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
 

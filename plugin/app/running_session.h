@@ -17,7 +17,7 @@
 #include "plugin/session/prepared_scene.h"
 #include "plugin/session/servo.h"
 #include "plugin/session/session.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
 

@@ -28,8 +28,8 @@
 #include "plugin/bench/tick_study.h"
 #include "plugin/options/series_option.h"
 #include "plugin/report/text_file.h"
-#include "plugin/session/shared_distance.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/shared_distance.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -23,7 +23,7 @@
 #include "modes/scene/suggest.h"
 #include "plugin/app/errors.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -18,7 +18,7 @@
 #include "plugin/bench/hand_trace.h"
 #include "plugin/bench/traced_bodies.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -17,10 +17,10 @@
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
-#include "plugin/session/registered_structure.h"
-#include "plugin/session/structure_files.h"
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/registered_structure.h"
+#include "plugin/structures/structure_files.h"
+#include "plugin/structures/study_registrations.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

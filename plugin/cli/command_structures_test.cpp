@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "plugin/recording/recording.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 #include "plugin/testing/command_rig.h"
 #include "plugin/testing/kept_out.h"
 #include "plugin/testing/opened_files.h"

@@ -19,8 +19,8 @@
 #include "plugin/options/series_option.h"
 #include "plugin/report/suggestion_picture.h"
 #include "plugin/report/text_file.h"
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_registrations.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -21,8 +21,8 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/recording/recording.h"
-#include "plugin/session/scene_structures.h"
 #include "plugin/session/tick_record.h"
+#include "plugin/structures/scene_structures.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {

@@ -9,7 +9,7 @@
 #include "plugin/openigtlink/image.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/say.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin::igtl {
 namespace {

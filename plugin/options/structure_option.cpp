@@ -12,8 +12,8 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_registrations.h"
+#include "plugin/structures/study_structures.h"
 #include "solver/text/printable.h"
 
 namespace palpate::plugin {

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "plugin/session/registered_structure.h"
 #include "plugin/session/tick_record.h"
+#include "plugin/structures/registered_structure.h"
 
 namespace palpate::plugin {
 

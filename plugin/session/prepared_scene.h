@@ -11,7 +11,7 @@
 #include "io/volume.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
-#include "plugin/session/scene_structures.h"
+#include "plugin/structures/scene_structures.h"
 
 namespace palpate::plugin {
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/registered_structure.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/registered_structure.h"
+#include "plugin/structures/study_structures.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin {

@@ -18,7 +18,7 @@
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
 #include "plugin/paraview/wire/slices_message.h"
 #include "plugin/paraview/wire/structure_files_message.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 #include "plugin/testing/registered_study.h"
 #include "plugin/testing/test_files.h"
 #include "testdata/scan.h"

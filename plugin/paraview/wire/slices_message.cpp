@@ -12,7 +12,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/common/scan_store.h"
 #include "plugin/session/scan_hash.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

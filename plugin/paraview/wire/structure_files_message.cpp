@@ -11,8 +11,8 @@
 
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/structure_files.h"
-#include "plugin/session/study_registrations.h"
+#include "plugin/structures/structure_files.h"
+#include "plugin/structures/study_registrations.h"
 
 namespace palpate::plugin {
 namespace {

@@ -16,9 +16,9 @@
 #include "io/structures/doubtful_places.h"
 #include "io/structures/structure.h"
 #include "plugin/paraview/client/model/scene_model.h"
-#include "plugin/session/drawn_structure.h"
-#include "plugin/session/edges_beside.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/drawn_structure.h"
+#include "plugin/structures/edges_beside.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

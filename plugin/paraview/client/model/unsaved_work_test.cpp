@@ -8,7 +8,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/paraview/client/model/correction_model.h"
 #include "plugin/paraview/client/model/testing/made_text.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -14,9 +14,9 @@
 #include "io/structures/outline_places.h"
 #include "io/structures/scan_edge.h"
 #include "plugin/paraview/common/structure_shapes.h"
-#include "plugin/session/drawn_structure.h"
-#include "plugin/session/shared_distance.h"
-#include "plugin/session/shared_edits.h"
+#include "plugin/structures/drawn_structure.h"
+#include "plugin/structures/shared_distance.h"
+#include "plugin/structures/shared_edits.h"
 
 namespace palpate::plugin {
 namespace {

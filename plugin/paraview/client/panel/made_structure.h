@@ -10,7 +10,7 @@
 #include "io/structures/outline_change.h"
 #include "io/structures/structure.h"
 #include "plugin/paraview/client/views/structure_views.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 

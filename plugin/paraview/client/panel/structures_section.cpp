@@ -20,10 +20,10 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
-#include "plugin/session/drawn_structure.h"
-#include "plugin/session/structure_files.h"
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/drawn_structure.h"
+#include "plugin/structures/structure_files.h"
+#include "plugin/structures/study_registrations.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

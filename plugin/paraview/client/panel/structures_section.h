@@ -20,7 +20,7 @@
 #include "plugin/paraview/client/panel/made_structure.h"
 #include "plugin/paraview/client/panel/outline_margins.h"
 #include "plugin/paraview/client/views/structure_views.h"
-#include "plugin/session/scene_structures.h"
+#include "plugin/structures/scene_structures.h"
 
 class QDoubleSpinBox;
 class QLabel;

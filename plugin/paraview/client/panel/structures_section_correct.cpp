@@ -8,8 +8,8 @@
 
 #include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/structures_section.h"
-#include "plugin/session/drawn_structure.h"
-#include "plugin/session/shared_distance.h"
+#include "plugin/structures/drawn_structure.h"
+#include "plugin/structures/shared_distance.h"
 
 // The structure that is being corrected.
 

@@ -20,7 +20,7 @@
 #include "plugin/paraview/client/widgets/row_list.h"
 #include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words/mode_words.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 // What stands in the section, from top to bottom, and what its buttons, menus and dialogs ask for.
 

@@ -23,7 +23,7 @@
 #include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/client/words/mode_words.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -18,7 +18,7 @@
 #include "plugin/paraview/client/remote/server_series.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/paraview/server/module/PalpateScanSlices.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
 namespace {

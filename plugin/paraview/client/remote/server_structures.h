@@ -2,7 +2,7 @@
 
 /// Brings the files of structures that lie beside a scan on a server to this machine, where they are felt. They are
 /// kept in a folder that only the user may read, until the scan goes. A scene names them as the server does
-/// (plugin/session/structure_files.h).
+/// (plugin/structures/structure_files.h).
 
 #include <pqPipelineSource.h>
 

@@ -16,7 +16,7 @@
 #include "io/bounding_box.h"
 #include "plugin/paraview/common/structure_shapes.h"
 #include "plugin/paraview/server/module/scan_of_image.h"
-#include "plugin/session/scene_structures.h"
+#include "plugin/structures/scene_structures.h"
 
 using namespace palpate;
 

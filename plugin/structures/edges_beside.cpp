@@ -1,4 +1,4 @@
-#include "plugin/session/edges_beside.h"
+#include "plugin/structures/edges_beside.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "plugin/session/drawn_structure.h"
+#include "plugin/structures/drawn_structure.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "plugin/session/shared_distance.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/shared_distance.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugin/session/registered_structure.h"
+#include "plugin/structures/registered_structure.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // A recording names no path, and finds its structures again by what is in their files.
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 
 #include <gtest/gtest.h>
 

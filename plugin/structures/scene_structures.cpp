@@ -1,4 +1,4 @@
-#include "plugin/session/scene_structures.h"
+#include "plugin/structures/scene_structures.h"
 
 #include <fmt/format.h>
 
@@ -15,11 +15,11 @@
 #include "io/structures/outline_change.h"
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
-#include "plugin/session/shared_distance.h"
-#include "plugin/session/shared_edits.h"
-#include "plugin/session/structure_files.h"
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/shared_distance.h"
+#include "plugin/structures/shared_edits.h"
+#include "plugin/structures/structure_files.h"
+#include "plugin/structures/study_registrations.h"
+#include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugin/session/shared_edits.h"
+#include "plugin/structures/shared_edits.h"
 
 #include <fmt/format.h>
 

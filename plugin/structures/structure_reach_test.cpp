@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "modes/scene/scene.h"
-#include "plugin/session/scene_structures.h"
+#include "plugin/structures/scene_structures.h"
 #include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {

@@ -1,5 +1,5 @@
 // Registrations beside structures: each file is opened once, however many structures ask; bounded; can be cancelled.
-#include "plugin/session/study_registrations.h"
+#include "plugin/structures/study_registrations.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// One field for all who ask for the same edit of the same field, as long as one of them holds it.
 
-#include "plugin/session/shared_edits.h"
+#include "plugin/structures/shared_edits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Structures on a scan: of which patient, in which frame of reference, and what a registration in their study does.
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// One distance field for all who ask for the same, as long as one of them holds it; another for whatever differs.
 
-#include "plugin/session/shared_distance.h"
+#include "plugin/structures/shared_distance.h"
 
 #include <gtest/gtest.h>
 

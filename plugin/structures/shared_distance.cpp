@@ -1,4 +1,4 @@
-#include "plugin/session/shared_distance.h"
+#include "plugin/structures/shared_distance.h"
 
 #include <filesystem>
 #include <mutex>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "io/structures/edits.h"
-#include "plugin/session/drawn_structure.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/drawn_structure.h"
+#include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
 namespace {

@@ -1,10 +1,10 @@
-#include "plugin/session/study_registrations.h"
+#include "plugin/structures/study_registrations.h"
 
 #include <system_error>
 #include <utility>
 
 #include "plugin/messages/messages.h"
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
 namespace {

@@ -1,4 +1,4 @@
-#include "plugin/session/drawn_structure.h"
+#include "plugin/structures/drawn_structure.h"
 
 #include <algorithm>
 #include <cmath>

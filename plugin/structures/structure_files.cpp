@@ -1,4 +1,4 @@
-#include "plugin/session/structure_files.h"
+#include "plugin/structures/structure_files.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>

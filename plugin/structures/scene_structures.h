@@ -12,7 +12,7 @@
 #include "io/volume.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
-#include "plugin/session/registered_structure.h"
+#include "plugin/structures/registered_structure.h"
 #include "solver/text/message.h"
 
 namespace palpate::plugin {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/session/study_registrations.h"
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_registrations.h"
+#include "plugin/structures/study_structures.h"
 #define XXH_INLINE_ALL  // xxHash's own code, not the library that the program uses
 #include <xxhash.h>
 

@@ -1,6 +1,6 @@
 /// The scan's own edge beside strokes, against a ball whose edge is known.
 
-#include "plugin/session/edges_beside.h"
+#include "plugin/structures/edges_beside.h"
 
 #include <gtest/gtest.h>
 

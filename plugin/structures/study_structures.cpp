@@ -1,4 +1,4 @@
-#include "plugin/session/study_structures.h"
+#include "plugin/structures/study_structures.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
