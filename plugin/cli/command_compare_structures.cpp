@@ -10,9 +10,9 @@
 #include "io/structures/compare_outlines.h"
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/structure_option.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
-#include "plugin/options/structure_option.h"
 
 namespace palpate::plugin {
 namespace {

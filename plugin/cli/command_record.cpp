@@ -6,9 +6,10 @@
 
 #include "plugin/app/errors.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/ready_session.h"
+#include "plugin/cli/session_option.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
-#include "plugin/options/session_option.h"
 
 namespace palpate::plugin {
 namespace {

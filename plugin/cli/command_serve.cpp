@@ -6,10 +6,11 @@
 #include "plugin/app/live_session.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/ready_session.h"
+#include "plugin/cli/session_option.h"
 #include "plugin/messages/tell.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/openigtlink/serve.h"
-#include "plugin/options/session_option.h"
 
 namespace palpate::plugin {
 namespace {

@@ -11,9 +11,9 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/structure_option.h"
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
-#include "plugin/options/structure_option.h"
 
 namespace palpate::plugin {
 namespace {

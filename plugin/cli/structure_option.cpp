@@ -1,4 +1,4 @@
-#include "plugin/options/structure_option.h"
+#include "plugin/cli/structure_option.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,4 @@
-#include "plugin/options/session_option.h"
-
-#include <CLI/CLI.hpp>
+#include "plugin/cli/ready_session.h"
 
 #include "device/simulated/simulated_stylus.h"
 #include "plugin/app/open_scan.h"
@@ -8,19 +6,6 @@
 #include "plugin/session/scan_hash.h"
 
 namespace palpate::plugin {
-
-void add_session_option(CLI::App& command, SessionOption& option) {
-  add_series_option(command, option.series);
-  command.add_option(
-      "--scene", option.scene,
-      "a scene's file or the name of a starting scene (default: one that suits the part of the body and the modality)");
-  add_probe_path_option(command, option.path);
-  add_stylus_option(command, option.stylus);
-  command.add_option(
-      "--seconds", option.seconds,
-      "how long (default: until the end of the simulated hand's path; with another stylus until Ctrl-C)");
-  command.add_flag("--live", option.live, "show what is felt, even if stderr is not a terminal");
-}
 
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus) {
   // What a real device can do is known once it is open. It is closed with its last owner.
