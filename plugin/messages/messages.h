@@ -2,23 +2,23 @@
 
 /// What plugin says to a user.
 
-#include "plugin/messages/messages_of_archives.h"
 #include "plugin/messages/messages_of_balances.h"
+#include "plugin/messages/messages_of_choices.h"
+#include "plugin/messages/messages_of_kept_archives.h"
 #include "plugin/messages/messages_of_paraview.h"
-#include "plugin/messages/messages_of_series.h"
+#include "plugin/messages/messages_of_scene_structures.h"
 #include "plugin/messages/messages_of_sessions.h"
-#include "plugin/messages/messages_of_structures.h"
 #include "solver/text/message.h"
 
 namespace palpate::plugin {
 
 /// The message of this id, with these values in its places.
 template <typename... Values>
-Text say(
-    std::type_identity_t<ChosenMessage<sizeof...(Values), messages::archives, messages::balances, messages::paraview,
-                                       messages::series, messages::sessions, messages::structures>>
-        message,
-    const Values&... values) {
+Text say(std::type_identity_t<
+             ChosenMessage<sizeof...(Values), messages::kept_archives, messages::balances, messages::paraview,
+                           messages::choices, messages::sessions, messages::scene_structures>>
+             message,
+         const Values&... values) {
   return message.filled(values...);
 }
 

@@ -83,8 +83,8 @@ TEST(Messages, NoFolderHasAnIdTwice) {
       {modes::messages::scenes},
       {solver::messages::balances},
       {device::messages::styluses},
-      {messages::archives, messages::balances, messages::openigtlink, messages::paraview, messages::series,
-       messages::sessions, messages::structures}};
+      {messages::kept_archives, messages::balances, messages::openigtlink, messages::paraview, messages::choices,
+       messages::sessions, messages::scene_structures}};
   for (const auto& tables : folders) {
     std::set<std::string_view> ids;
     for (const auto& table : tables) {
@@ -153,9 +153,10 @@ TEST(Messages, EachIsShown) {
                            testing::provoke_recordings()}) {
     provoked.insert(provoked.end(), some.begin(), some.end());
   }
-  palpate::testing::expect_all_shown({messages::archives, messages::balances, messages::openigtlink, messages::paraview,
-                                      messages::series, messages::sessions, messages::structures},
-                                     provoked, not_shown, PALPATE_SOURCES);
+  palpate::testing::expect_all_shown(
+      {messages::kept_archives, messages::balances, messages::openigtlink, messages::paraview, messages::choices,
+       messages::sessions, messages::scene_structures},
+      provoked, not_shown, PALPATE_SOURCES);
 }
 
 }  // namespace

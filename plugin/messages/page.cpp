@@ -17,16 +17,16 @@ const std::vector<MessageSection>& message_sections() {
        "notes; the rest of the\nfolder is used. A file that came damaged is damaged where it came from or was cut on "
        "its "
        "way: compare its size there, then send it again.",
-       {io::messages::series, messages::series}},
+       {io::messages::series, messages::choices}},
       {"Archives",
        "Of `palpate archive`, `find`, `fetch`, `send`, `marks` and `export`. A message names the archive as you do. "
        "Where "
        "one quotes a status, it\nis the archive's own answer (DICOM PS3.7 Annex C). None holds a patient's name or id.",
-       {io::messages::archives, messages::archives}},
+       {io::messages::archives, messages::kept_archives}},
       {"Structures",
        "What is wrong with a file stands in the list of `palpate structures` (\"set apart\"), or as a note of the "
        "structure.",
-       {io::messages::structures, messages::structures}},
+       {io::messages::structures, messages::scene_structures}},
       {"Scenes",
        "Every one begins with where: the file, then the key, such as `modes[2].strength_n`. The keys are in\n"
        "[modes/README.md](../../modes/README.md).",

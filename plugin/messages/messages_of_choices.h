@@ -6,7 +6,7 @@
 
 namespace palpate::plugin::messages {
 
-inline constexpr MessageRow series[] = {
+inline constexpr MessageRow choices[] = {
     {"as the list says",
      "name the folder with the images",
      {{"no-usable-series", "no usable series in {}{}; `palpate info` tells more"}}},

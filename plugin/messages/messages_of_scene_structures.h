@@ -6,7 +6,7 @@
 
 namespace palpate::plugin::messages {
 
-inline constexpr MessageRow structures[] = {
+inline constexpr MessageRow scene_structures[] = {
     {"the scene's `file` or `segment` is not what it is called",
      "`palpate structures` lists them",
      {{"file-holds-no-structures", "{} holds no structures{}"},

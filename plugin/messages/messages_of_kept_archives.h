@@ -6,7 +6,7 @@
 
 namespace palpate::plugin::messages {
 
-inline constexpr MessageRow archives[] = {
+inline constexpr MessageRow kept_archives[] = {
     {"the archive could not send all; what came is kept",
      "fetch it again",
      {{"not-all-images-came", "not all images came: see the warnings"}}},
