@@ -55,7 +55,7 @@ TEST(SafetyFaults, WhatIsAtItsLimitIsAllowed) {
     arm(session.state);
     session.step(0);
     session.limits.speed = 1;
-    session.limits.speed_filter_time = 0x1p-10;  // as long as the tick: half of a step of speed shows
+    session.limits.speed_smoothing_time = 0x1p-10;  // as long as the tick: half of a step of speed shows
     session.input.reading.position.y = (2 + over) * 0x1p-10;
     EXPECT_EQ(session.step(0x1p-10).fault, over > 0 ? Fault::speed_exceeded : Fault::none);
   }
@@ -74,7 +74,7 @@ TEST(SafetyFaults, TheSpeedAloneAlongAnyDirection) {
       FilterSession session;
       session.push(Vec3(0, 1, 0));
       session.limits.speed = 1;
-      session.limits.speed_filter_time = 4e-3;
+      session.limits.speed_smoothing_time = 4e-3;
       double shown = 0;
       for (int i = 1; i <= 30 && shown <= 1; ++i) {
         session.new_pose = false;
@@ -129,7 +129,7 @@ TEST(SafetyFaults, WhatIsNoNumberOrNoLimitEndsTheForceAtOnce) {
   }
   for (double SafetyLimits::*limit :
        {&SafetyLimits::force, &SafetyLimits::device_force, &SafetyLimits::slew, &SafetyLimits::slew_time,
-        &SafetyLimits::ramp_time, &SafetyLimits::fall_time, &SafetyLimits::speed, &SafetyLimits::speed_filter_time,
+        &SafetyLimits::ramp_time, &SafetyLimits::fall_time, &SafetyLimits::speed, &SafetyLimits::speed_smoothing_time,
         &SafetyLimits::force_age, &SafetyLimits::pose_age, &SafetyLimits::stall_time, &SafetyLimits::heartbeat_time}) {
     for (const double no_limit : {std::nan(""), -1e-9}) {
       ends_the_force(Fault::force_not_finite, [&](FilterSession& of) { of.limits.*limit = no_limit; });

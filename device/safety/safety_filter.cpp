@@ -19,7 +19,7 @@ void latch(SafetyState& state, Fault fault) {
 /// Each a number, and none negative.
 bool are_limits(const SafetyLimits& limits) {
   for (const double limit : {limits.force, limits.device_force, limits.slew, limits.slew_time, limits.ramp_time,
-                             limits.fall_time, limits.speed, limits.speed_filter_time, limits.force_age,
+                             limits.fall_time, limits.speed, limits.speed_smoothing_time, limits.force_age,
                              limits.pose_age, limits.stall_time, limits.heartbeat_time}) {
     if (!(limit >= 0)) return false;
   }
@@ -36,7 +36,7 @@ void follow_pose(const SafetyLimits& limits, const SafetyInput& input, SafetySta
   const double elapsed = input.time - state.pose_time;
   if (state.has_pose && elapsed > 0) {
     const Vec3 velocity = (input.reading.position - state.pose) / elapsed;
-    state.velocity += (velocity - state.velocity) * (elapsed / (elapsed + limits.speed_filter_time));
+    state.velocity += (velocity - state.velocity) * (elapsed / (elapsed + limits.speed_smoothing_time));
   }
   // Two poses in one instant tell no speed: the older stays the reference.
   if (!state.has_pose || elapsed > 0) {

@@ -26,7 +26,7 @@ TEST(SafetyValues, LimitsAreAsDocumented) {
   EXPECT_EQ(limits.ramp_time, 0.5);
   EXPECT_EQ(limits.fall_time, 0.05);
   EXPECT_EQ(limits.speed, 1);
-  EXPECT_EQ(limits.speed_filter_time, 2e-3);
+  EXPECT_EQ(limits.speed_smoothing_time, 2e-3);
   EXPECT_EQ(limits.force_age, 0.010);
   EXPECT_EQ(limits.pose_age, 0.010);
   EXPECT_EQ(limits.stall_time, 0.1);

@@ -12,26 +12,26 @@ namespace palpate::io {
 namespace {
 
 /// Weights of a Gaussian (mm), cut off as the kernel's are, and the same times the offset in mm.
-struct Filter {
+struct LineKernel {
   cv::Mat smooth;
   cv::Mat slope;
 };
 
-Filter make_filter(double scale, double spacing, int radius) {
-  Filter filter{cv::Mat(2 * radius + 1, 1, CV_64F), cv::Mat(2 * radius + 1, 1, CV_64F)};
+LineKernel make_kernel(double scale, double spacing, int radius) {
+  LineKernel kernel{cv::Mat(2 * radius + 1, 1, CV_64F), cv::Mat(2 * radius + 1, 1, CV_64F)};
   double sum = 0;
   double second = 0;
   for (int n = -radius; n <= radius; ++n) {
     const double mm = n * spacing;
     const double weight = std::exp(-0.5 * mm * mm / (scale * scale));
-    filter.smooth.at<double>(n + radius) = weight;
-    filter.slope.at<double>(n + radius) = weight * mm;
+    kernel.smooth.at<double>(n + radius) = weight;
+    kernel.slope.at<double>(n + radius) = weight * mm;
     sum += weight;
     second += weight * mm * mm;
   }
-  filter.smooth /= sum;
-  filter.slope /= second;
-  return filter;
+  kernel.smooth /= sum;
+  kernel.slope /= second;
+  return kernel;
 }
 
 TEST(GradientAndOpenCV, AgreeOnCompleteNeighborhoods) {
@@ -43,12 +43,12 @@ TEST(GradientAndOpenCV, AgreeOnCompleteNeighborhoods) {
   constexpr double scale = 1.5;
   const GradientKernel kernel(volume, scale);
   const glm::ivec3 reach = kernel.radius();
-  const Filter x = make_filter(scale, 0.7, reach.x);
-  const Filter y = make_filter(scale, 0.8, reach.y);
-  const Filter z = make_filter(scale, 1.1, reach.z);
+  const LineKernel x = make_kernel(scale, 0.7, reach.x);
+  const LineKernel y = make_kernel(scale, 0.8, reach.y);
+  const LineKernel z = make_kernel(scale, 1.1, reach.z);
   const glm::ivec3 size = volume->geometry.dimensions;
 
-  // In each slice by OpenCV; across the slices one more filter, on images of one row a slice.
+  // In each slice by OpenCV; across the slices one more kernel, on images of one row a slice.
   cv::Mat smooth_smooth(size.z, size.x * size.y, CV_64F);
   cv::Mat slope_smooth = smooth_smooth.clone();
   cv::Mat smooth_slope = smooth_smooth.clone();

@@ -93,15 +93,15 @@ class BlockSums {
         layout_(layout),
         load_row_(load_row),
         row_(scratch),
-        filtered_rows_(row_ + layout.row_floats),
-        planes_(filtered_rows_ + static_cast<std::size_t>(layout.rows) * (Order + 1) * width()) {}
+        rows_summed_(row_ + layout.row_floats),
+        planes_(rows_summed_ + static_cast<std::size_t>(layout.rows) * (Order + 1) * width()) {}
 
   void run(float* sums) {
     // The lanes beyond the block's width are never read from the volume.
     std::fill(row_, row_ + layout_.row_floats, 0.0F);
     if (kernel_.straight) {
       for (int n = 0; n < layout_.slices; ++n) {
-        filter_plane(layout_.first_slice + n, 0, plane_of(n));
+        sum_plane(layout_.first_slice + n, 0, plane_of(n));
       }
     }
     for (int k = 0; k < layout_.block.size.z; ++k) {
@@ -114,7 +114,7 @@ class BlockSums {
       }
       std::fill(out, out + space_sums(Order) * layout_.plane(), 0.0F);
       for (const Contribution& c : contributions) {
-        filter_plane(c.slice, c.taps, planes_);
+        sum_plane(c.slice, c.taps, planes_);
         add_shifted(c, out);
       }
     }
@@ -127,11 +127,11 @@ class BlockSums {
 
   std::size_t width() const { return static_cast<std::size_t>(layout_.width); }
   float* plane_of(int n) const { return planes_ + static_cast<std::size_t>(n) * in_plane * layout_.plane(); }
-  float* filtered_row(int row, int power) const {
-    return filtered_rows_ + (static_cast<std::size_t>(row) * (Order + 1) + static_cast<std::size_t>(power)) * width();
+  float* row_summed(int row, int power) const {
+    return rows_summed_ + (static_cast<std::size_t>(row) * (Order + 1) + static_cast<std::size_t>(power)) * width();
   }
 
-  void filter_plane(int slice, int taps, float* plane) {
+  void sum_plane(int slice, int taps, float* plane) {
     const Taps& along_i = kernel_.taps_i[static_cast<std::size_t>(taps)];
     const Taps& along_j = kernel_.taps_j[static_cast<std::size_t>(taps)];
     // Taps come from the middle outwards: the last two are the outermost.
@@ -143,17 +143,17 @@ class BlockSums {
       load_row_(slice, layout_.block.first.y + row - layout_.radius.y, layout_.block.first.x - layout_.radius.x,
                 layout_.block.size.x + 2 * layout_.radius.x, row_);
       for (int i = 0; i < layout_.width; i += Lanes) {
-        filter_row(along_i, row, i);
+        sum_row(along_i, row, i);
       }
     }
     for (int j = 0; j < layout_.block.size.y; ++j) {
       for (int i = 0; i < layout_.width; i += Lanes) {
-        filter_column(along_j, j, i, plane);
+        sum_column(along_j, j, i, plane);
       }
     }
   }
 
-  void filter_row(const Taps& taps, int row, int i) {
+  void sum_row(const Taps& taps, int row, int i) {
     Vector sum[Order + 1] = {};
     const float* const middle = row_ + layout_.radius.x + i;
     const std::size_t alone = kernel_.straight ? 1 : taps.size();
@@ -174,14 +174,14 @@ class BlockSums {
       }
     }
     for (int power = 0; power <= Order; ++power) {
-      sum[power].store(filtered_row(row, power) + i);
+      sum[power].store(row_summed(row, power) + i);
     }
   }
 
-  void filter_column(const Taps& taps, int j, int i, float* plane) {
+  void sum_column(const Taps& taps, int j, int i, float* plane) {
     Vector sum[in_plane] = {};
     const auto load = [&](const Tap& tap, int power) {
-      return Vector::load(filtered_row(j + layout_.radius.y + tap.offset, power) + i);
+      return Vector::load(row_summed(j + layout_.radius.y + tap.offset, power) + i);
     };
     const std::size_t alone = kernel_.straight ? 1 : taps.size();
     for (std::size_t t = 0; t < alone; ++t) {
@@ -316,7 +316,7 @@ class BlockSums {
   const BlockLayout& layout_;
   const LoadRow& load_row_;
   float* row_;
-  float* filtered_rows_;
+  float* rows_summed_;
   float* planes_;
 };
 

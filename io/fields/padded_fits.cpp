@@ -16,8 +16,8 @@ PaddedFits::PaddedFits(const SliceKernel& kernel, const Fits& fits, int rows, in
       planes_count_(planes),
       rows_(static_cast<std::size_t>(rows)),
       row_(static_cast<std::size_t>(tile_width + 2 * kernel.radius.x), 0.0F),
-      filtered_(static_cast<std::size_t>(row_sums * tile_width) *
-                (rows_ + 2 * static_cast<std::size_t>(kernel.radius.y))),
+      rows_summed_(static_cast<std::size_t>(row_sums * tile_width) *
+                   (rows_ + 2 * static_cast<std::size_t>(kernel.radius.y))),
       planes_(static_cast<std::size_t>(planes) * rows_ * weight_plane_sums * tile_width),
       sums_(weight_space_sums * tile_width),
       row_fits_(rows_ * fit_rows * tile_width) {}
@@ -45,16 +45,15 @@ template <typename Stored>
 void PaddedFits::add_plane(const RowReader<Stored>& weights, int slice) {
   const glm::ivec3 reach = kernel_.radius;
   for (int r = 0; r < tile_.size.y + 2 * reach.y; ++r) {
-    float* const filtered = filtered_.get() + r * (row_sums * tile_width);
+    float* const summed = rows_summed_.get() + r * (row_sums * tile_width);
     if (const Chunks needed = needed_in_row(slice, r); needed != 0) {
       weights(slice, tile_.first.y + r - reach.y, tile_.first.x - reach.x, tile_.size.x + 2 * reach.x, row_.data());
-      for_each_stretch(needed, [&](int begin, int end) {
-        weigh_row(row_.data() + reach.x, kernel_.taps_i[0], begin, end, filtered);
-      });
+      for_each_stretch(
+          needed, [&](int begin, int end) { weigh_row(row_.data() + reach.x, kernel_.taps_i[0], begin, end, summed); });
     }
     if (const int j = r - 2 * reach.y; j >= 0) {
       for_each_stretch(map_->needed(slice, j), [&](int begin, int end) {
-        weigh_column(filtered - reach.y * (row_sums * tile_width), kernel_.taps_j[0], begin, end, plane_row(slice, j));
+        weigh_column(summed - reach.y * (row_sums * tile_width), kernel_.taps_j[0], begin, end, plane_row(slice, j));
       });
     }
   }

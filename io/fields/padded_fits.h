@@ -10,7 +10,7 @@
 #include "io/fields/padding_map.h"
 #include "io/fields/row_reader.h"
 #include "io/fields/slice_kernel.h"
-#include "io/fields/weight_filters.h"
+#include "io/fields/weight_sums.h"
 
 namespace palpate::io::internal {
 
@@ -24,7 +24,7 @@ class PaddedFits {
   template <typename Stored>
   void add_plane(const RowReader<Stored>& weights, int slice);
   /// The fits of those voxels of row j of slice k that PaddingMap::beside() names, both counted from the tile's first:
-  /// rows as in straight_filters.h. To be asked for each of a tile's rows that has some, slice by slice; all planes
+  /// rows as in straight_sums.h. To be asked for each of a tile's rows that has some, slice by slice; all planes
   /// that slice k needs have been added.
   const float* of_row(int k, int j);
 
@@ -39,7 +39,7 @@ class PaddedFits {
   const PaddingMap* map_ = nullptr;
   Block tile_;
   std::vector<float> row_;
-  Lines filtered_, planes_, sums_, row_fits_;
+  Lines rows_summed_, planes_, sums_, row_fits_;
   std::vector<WeightPair> pairs_;
 };
 

@@ -10,7 +10,7 @@
 
 #include "io/fields/fits.h"
 #include "io/fields/slice_kernel.h"
-#include "io/fields/straight_filters.h"
+#include "io/fields/straight_sums.h"
 #include "io/volume.h"
 
 namespace palpate::io::internal {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Loops over a filter's taps whose count the compiler knows.
+/// Loops over a kernel's taps whose count the compiler knows.
 
 namespace palpate::io::internal {
 

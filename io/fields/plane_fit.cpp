@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "io/fields/straight_filters.h"
+#include "io/fields/straight_sums.h"
 #include "io/for_processor.h"
 
 namespace palpate::io::internal {
@@ -19,7 +19,7 @@ constexpr Four zero{}, one{1, 1, 1, 1};
   to = d > zero ? one / d : zero;
 }
 
-/// Calls use(n, numbers) with the fits' rows, as in straight_filters.h. sum(n): the n-th sum of the four.
+/// Calls use(n, numbers) with the fits' rows, as in straight_sums.h. sum(n): the n-th sum of the four.
 template <typename Sum, typename Use>
 [[gnu::always_inline]] inline void fit_four(const Sum& sum, double scale_mm, const glm::dmat3& to_patient,
                                             const Use& use) {

@@ -32,7 +32,7 @@ inline glm::vec3 gradient_of(const PlaneFit& fit, const float* s, std::size_t st
 PlaneFit fit_plane(const float* sums, std::size_t stride, double scale_mm, const glm::dmat3& to_patient) noexcept;
 
 /// The same, with the same bits, of the voxels of a row from `begin` to `end`, a multiple of four: sums and fits lie
-/// tile_width floats apart, the fits in rows as in straight_filters.h.
+/// tile_width floats apart, the fits in rows as in straight_sums.h.
 void fit_planes(const float* sums, int begin, int end, double scale_mm, const glm::dmat3& to_patient,
                 float* fits) noexcept;
 

@@ -40,7 +40,7 @@ struct SliceKernel {
   std::vector<std::vector<Contribution>> of_slice;  ///< by slice, from itself outwards
   std::vector<Taps> taps_i;
   std::vector<Taps> taps_j;
-  /// Whether all contributions share the first taps, so that a slice filtered in its plane serves every other.
+  /// Whether all contributions share the first taps, so that a slice summed in its plane serves every other.
   /// The taps are then symmetric, too.
   bool straight = true;
   glm::ivec3 radius{0};   ///< largest offset along each axis

@@ -9,7 +9,7 @@
 #include "io/fields/padded_fits.h"
 #include "io/fields/padding_map.h"
 #include "io/fields/row_reader.h"
-#include "io/fields/straight_filters.h"
+#include "io/fields/straight_sums.h"
 
 // Offsets within a tile, far below what an int holds.
 // NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)
@@ -41,8 +41,8 @@ class StraightBlock {
         plane_(static_cast<std::size_t>(3 * tile_width * block.size.y) + apart),
         ring_(2 * kernel.radius.z + slices_at_once),
         row_(static_cast<std::size_t>(tile_width + 2 * kernel.radius.x), 0.0F),
-        filtered_(static_cast<std::size_t>(2 * tile_width) *
-                  static_cast<std::size_t>(block.size.y + 2 * kernel.radius.y)),
+        rows_summed_(static_cast<std::size_t>(2 * tile_width) *
+                     static_cast<std::size_t>(block.size.y + 2 * kernel.radius.y)),
         planes_(plane_ * static_cast<std::size_t>(ring_)),
         sums_(4 * tile_width),
         row_fits_(fit_rows * tile_width) {
@@ -86,7 +86,7 @@ class StraightBlock {
       int last = 0;
       for (const Contribution& c : contributions(at_once_ - 1)) last = std::max(last, c.slice);
       for (; next <= last; ++next) {
-        filter_plane(values, next);
+        sum_plane(values, next);
         if (has_beside_) padded_fits_->add_plane(weights, next);
       }
       find_planes();
@@ -115,7 +115,7 @@ class StraightBlock {
 
   float* plane_of(int slice) const { return planes_.get() + plane_ * static_cast<std::size_t>(slice % ring_); }
 
-  void filter_plane(const RowReader<Stored>& reader, int slice) {
+  void sum_plane(const RowReader<Stored>& reader, int slice) {
     const int reach_i = kernel_.radius.x;
     const int reach_j = kernel_.radius.y;
     const int width = whole_lanes(tile_.size.x);
@@ -124,22 +124,22 @@ class StraightBlock {
       const int first = tile_.first.x - reach_i;
       const int count = tile_.size.x + 2 * reach_i;
       reader.prefetch(slice, tile_.first.y + r - reach_j + rows_ahead, first, count);
-      float* const filtered = filtered_.get() + 2 * tile_width * r;
+      float* const summed = rows_summed_.get() + 2 * tile_width * r;
       const Span of_row = padding_ ? span_of(padding_->valued_in_row(slice, r), width) : Span{0, width};
       if (of_row.begin < of_row.end) {
         reader(slice, tile_.first.y + r - reach_j, first, count, row_.data());
-        filter_row(row_.data() + reach_i + of_row.begin, kernel_.taps_i[0][0].weight[0], along_i_.data(), reach_i,
-                   of_row.end - of_row.begin, filtered + of_row.begin);
+        sum_row(row_.data() + reach_i + of_row.begin, kernel_.taps_i[0][0].weight[0], along_i_.data(), reach_i,
+                of_row.end - of_row.begin, summed + of_row.begin);
       }
-      clear_around(filtered, 2, of_row);
+      clear_around(summed, 2, of_row);
       // As soon as the last of a column's rows is there, while they all are in the nearest cache.
       if (const int j = r - 2 * reach_j; j >= 0) {
         const Span of_plane = padding_ ? span_of(padding_->valued_in_plane(slice, j), width) : Span{0, width};
         float* const sums = to + row_floats * j;
         if (of_plane.begin < of_plane.end) {
-          filter_column(filtered_.get() + 2 * tile_width * (j + reach_j) + of_plane.begin,
-                        kernel_.taps_j[0][0].weight[0], along_j_.data(), reach_j, of_plane.end - of_plane.begin,
-                        sums + of_plane.begin);
+          sum_column(rows_summed_.get() + 2 * tile_width * (j + reach_j) + of_plane.begin,
+                     kernel_.taps_j[0][0].weight[0], along_j_.data(), reach_j, of_plane.end - of_plane.begin,
+                     sums + of_plane.begin);
         }
         clear_around(sums, 3, of_plane);
       }
@@ -287,7 +287,7 @@ class StraightBlock {
   std::size_t plane_;  ///< floats of a plane
   int ring_;           ///< planes kept
   std::vector<float> row_;
-  Lines filtered_;
+  Lines rows_summed_;
   Lines planes_;
   Lines sums_;
   Lines row_fits_;

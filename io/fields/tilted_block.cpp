@@ -9,16 +9,16 @@
 #include "io/fields/moments.h"
 #include "io/fields/padding_map.h"
 #include "io/fields/row_reader.h"
-#include "io/fields/straight_filters.h"
-#include "io/fields/tilted_filters.h"
+#include "io/fields/straight_sums.h"
+#include "io/fields/tilted_sums.h"
 
 // Offsets within a tile, far below what an int holds.
 // NOLINTBEGIN(bugprone-implicit-widening-of-multiplication-result,bugprone-misplaced-widening-cast)
 namespace palpate::io::internal {
 namespace {
 
-/// Whether all slices are filtered alike along rows, as where a gantry is tilted about them: then a slice's rows are
-/// filtered once for all slices that it adds to.
+/// Whether all slices are summed alike along rows, as where a gantry is tilted about them: then a slice's rows are
+/// summed once for all slices that it adds to.
 bool share_rows(const SliceKernel& kernel) {
   const auto same = [](const Tap& a, const Tap& b) {
     return a.offset == b.offset && std::equal(a.weight, a.weight + 2, b.weight);
@@ -41,7 +41,7 @@ class TiltedBlock {
         rows_(block.size.y + 2 * kernel.radius.y),
         ring_(share_rows(kernel) ? 2 * kernel.radius.z + 1 : 0),
         row_(static_cast<std::size_t>(tile_width + 2 * kernel.radius.x), 0.0F),
-        filtered_(static_cast<std::size_t>(2 * tile_width * rows_) * static_cast<std::size_t>(std::max(ring_, 1))),
+        rows_summed_(static_cast<std::size_t>(2 * tile_width * rows_) * static_cast<std::size_t>(std::max(ring_, 1))),
         plane_(3 * tile_width),
         sums_(static_cast<std::size_t>(sums_of_row) * static_cast<std::size_t>(block.size.y)),
         row_fits_(fit_rows * tile_width) {
@@ -77,7 +77,7 @@ class TiltedBlock {
       if (ring_ > 0) {
         int last = 0;
         for (const Contribution& c : contributions) last = std::max(last, c.slice);
-        for (; next <= last; ++next) filter_rows(next, kernel_.taps_i[0], rows_of(next));
+        for (; next <= last; ++next) sum_rows(next, kernel_.taps_i[0], rows_of(next));
       }
       add_up(contributions);
       if (padding_ && !padding_->as_before(k)) fit_padded(k);
@@ -86,15 +86,16 @@ class TiltedBlock {
   }
 
   float* rows_of(int slice) const {
-    return filtered_.get() + static_cast<std::size_t>(slice % ring_) * static_cast<std::size_t>(2 * tile_width * rows_);
+    return rows_summed_.get() +
+           static_cast<std::size_t>(slice % ring_) * static_cast<std::size_t>(2 * tile_width * rows_);
   }
 
-  void filter_rows(int slice, const Taps& taps, float* rows) {
+  void sum_rows(int slice, const Taps& taps, float* rows) {
     const RowReader<Stored> reader(volume_, voxels_, false, met_padding_);
     const glm::ivec3 reach = kernel_.radius;
     for (int r = 0; r < tile_.size.y + 2 * reach.y; ++r) {
       reader(slice, tile_.first.y + r - reach.y, tile_.first.x - reach.x, tile_.size.x + 2 * reach.x, row_.data());
-      filter_tilted_row(row_.data() + reach.x, taps, width(), rows + 2 * tile_width * r);
+      sum_tilted_row(row_.data() + reach.x, taps, width(), rows + 2 * tile_width * r);
     }
   }
 
@@ -103,10 +104,10 @@ class TiltedBlock {
     std::fill_n(sums_.get(), sums_of_row * tile_.size.y, 0.0F);
     for (const Contribution& c : contributions) {
       const auto taps = static_cast<std::size_t>(c.taps);
-      if (ring_ == 0) filter_rows(c.slice, kernel_.taps_i[taps], filtered_.get());
-      const float* const rows = (ring_ > 0 ? rows_of(c.slice) : filtered_.get()) + 2 * tile_width * kernel_.radius.y;
+      if (ring_ == 0) sum_rows(c.slice, kernel_.taps_i[taps], rows_summed_.get());
+      const float* const rows = (ring_ > 0 ? rows_of(c.slice) : rows_summed_.get()) + 2 * tile_width * kernel_.radius.y;
       for (int j = 0; j < tile_.size.y; ++j) {
-        filter_tilted_column(rows + 2 * tile_width * j, kernel_.taps_j[taps], width(), plane_.get());
+        sum_tilted_column(rows + 2 * tile_width * j, kernel_.taps_j[taps], width(), plane_.get());
         add_tilted(plane_.get(), c, width(), sums_.get() + sums_of_row * j);
       }
     }
@@ -185,9 +186,9 @@ class TiltedBlock {
   const Fits& fits_;
   Block tile_;
   int rows_;  ///< of a tile, with the kernel's reach
-  int ring_;  ///< slices whose filtered rows are kept; 0 where none can be shared
+  int ring_;  ///< slices whose rows of sums are kept; 0 where none can be shared
   std::vector<float> row_;
-  Lines filtered_, plane_, sums_, row_fits_;
+  Lines rows_summed_, plane_, sums_, row_fits_;
   std::optional<Lines> padded_fits_;     ///< where the volume can hold padding
   std::unique_ptr<PaddingMap> padding_;  ///< where the tile does
   bool met_padding_ = false;

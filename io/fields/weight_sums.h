@@ -1,6 +1,6 @@
 #pragma once
 
-/// The sums of moments.h of second order over weights, for stretches of rows: as straight_filters.h, with the same bits
+/// The sums of moments.h of second order over weights, for stretches of rows: as straight_sums.h, with the same bits
 /// as moments.h. Sums of one voxel lie tile_width floats apart.
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The sums of moments.h of first order, for large blocks of a scan whose slices are displaced within their planes, as
-/// a tilted gantry leaves them: plain loops along a row, as in straight_filters.h. Each voxel's sum is taken in the
+/// a tilted gantry leaves them: plain loops along a row, as in straight_sums.h. Each voxel's sum is taken in the
 /// order of moments.h, so it has the same bits. Sums of one voxel lie tile_width floats apart.
 
 #include <glm/vec3.hpp>
@@ -11,17 +11,17 @@
 namespace palpate::io::internal {
 
 /// `in` points at the first voxel's value, with the taps' reach before and after it. Writes rows one, p.
-void filter_tilted_row(const float* in, const Taps& taps, int width, float* sums);
+void sum_tilted_row(const float* in, const Taps& taps, int width, float* sums);
 
-/// Three sums in a plane (rows one, p, q) from filtered rows that lie 2 * tile_width floats apart; `rows` points at
+/// Three sums in a plane (rows one, p, q) from rows of sums that lie 2 * tile_width floats apart; `rows` points at
 /// that of the row in hand.
-void filter_tilted_column(const float* rows, const Taps& taps, int width, float* sums);
+void sum_tilted_column(const float* rows, const Taps& taps, int width, float* sums);
 
 /// Moves a slice's sums in its plane to their offsets from the slice in hand, and adds them to rows one, p, q, w.
 void add_tilted(const float* plane, const Contribution& slice, int width, float* sums);
 
 /// Gradients of the voxels from `begin` to `end` of a row from such sums, each by its own fit: rows as in
-/// straight_filters.h.
+/// straight_sums.h.
 void fit_sums(const float* sums, const float* fits, int begin, int end, glm::vec3* gradients);
 
 }  // namespace palpate::io::internal

@@ -10,7 +10,7 @@
 
 namespace palpate::io::internal {
 
-/// Rows are filtered a tile at a time, no wider than this many voxels. Sums of one voxel lie this many floats apart: as
+/// Rows are summed a tile at a time, no wider than this many voxels. Sums of one voxel lie this many floats apart: as
 /// the compiler knows it, every sum that a loop reads is at a constant distance from one pointer.
 inline constexpr int tile_width = 256;
 
@@ -22,11 +22,11 @@ struct TapPair {
 
 /// One row of a tile: `in` points at the first voxel's value, with the taps' reach before and after it. Writes rows
 /// one, p.
-void filter_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* sums);
+void sum_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* sums);
 
-/// Three sums in a plane (rows one, p, q) from filtered rows that lie one after another; `rows` points at the row in
+/// Three sums in a plane (rows one, p, q) from rows of sums that lie one after another; `rows` points at the row in
 /// the middle.
-void filter_column(const float* rows, float middle, const TapPair* pairs, int count, int width, float* sums);
+void sum_column(const float* rows, float middle, const TapPair* pairs, int count, int width, float* sums);
 
 /// Each voxel's fit: rows slope (by sum, then by axis), constant (by axis), in PlaneFit's order.
 inline constexpr int fit_rows = 12;

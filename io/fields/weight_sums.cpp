@@ -1,8 +1,8 @@
-#include "io/fields/weight_filters.h"
+#include "io/fields/weight_sums.h"
 
 #include <algorithm>
 
-#include "io/fields/straight_filters.h"
+#include "io/fields/straight_sums.h"
 #include "io/for_processor.h"
 
 // Offsets within a tile, far below what an int holds.

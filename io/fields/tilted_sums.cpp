@@ -1,11 +1,11 @@
-#include "io/fields/tilted_filters.h"
+#include "io/fields/tilted_sums.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
 #include "io/fields/passes.h"
-#include "io/fields/straight_filters.h"
+#include "io/fields/straight_sums.h"
 #include "io/for_processor.h"
 
 // Offsets within a tile, far below what an int holds.
@@ -66,7 +66,7 @@ template <int Count, bool First>
 }  // namespace
 
 PALPATE_FOR_PROCESSOR
-void filter_tilted_row(const float* in, const Taps& taps, int width, float* sums) {
+void sum_tilted_row(const float* in, const Taps& taps, int width, float* sums) {
   const Tap* const first = taps.data();
   in_passes(
       static_cast<int>(taps.size()), [=]<int Count, bool First>(int done) __attribute__((always_inline)) {
@@ -75,7 +75,7 @@ void filter_tilted_row(const float* in, const Taps& taps, int width, float* sums
 }
 
 PALPATE_FOR_PROCESSOR
-void filter_tilted_column(const float* rows, const Taps& taps, int width, float* sums) {
+void sum_tilted_column(const float* rows, const Taps& taps, int width, float* sums) {
   const Tap* const first = taps.data();
   in_passes(
       static_cast<int>(taps.size()), [=]<int Count, bool First>(int done) __attribute__((always_inline)) {

@@ -1,4 +1,4 @@
-#include "io/fields/straight_filters.h"
+#include "io/fields/straight_sums.h"
 
 #include <algorithm>
 
@@ -135,7 +135,7 @@ template <bool Pair>
 }  // namespace
 
 PALPATE_FOR_PROCESSOR
-void filter_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* sums) {
+void sum_row(const float* in, float middle, const TapPair* pairs, int count, int width, float* sums) {
   in_passes(
       count, [=]<int Count, bool First>(int done) __attribute__((always_inline)) {
         add_row_pairs<Count, First>(in, middle, pairs + done, done, width, sums);
@@ -143,7 +143,7 @@ void filter_row(const float* in, float middle, const TapPair* pairs, int count, 
 }
 
 PALPATE_FOR_PROCESSOR
-void filter_column(const float* rows, float middle, const TapPair* pairs, int count, int width, float* sums) {
+void sum_column(const float* rows, float middle, const TapPair* pairs, int count, int width, float* sums) {
   in_passes(
       count, [=]<int Count, bool First>(int done) __attribute__((always_inline)) {
         add_column_pairs<Count, First>(rows, middle, pairs + done, done, width, sums);
