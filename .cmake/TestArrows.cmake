@@ -27,10 +27,10 @@ set(may_paraview_client common wire server)
 
 # The rooms of the panel: what each may include of the others, beside client/words.h. The models know nothing of widgets and views;
 # sections and views follow them; the dock makes all of them.
-set(may_client_model "")
+set(may_client_model jobs)
 set(may_client_words model)
 set(may_client_widgets "")
-set(may_client_jobs model)
+set(may_client_jobs "")
 set(may_client_views model jobs words)
 set(may_client_remote model jobs)
 set(may_client_pipeline model jobs words views remote)

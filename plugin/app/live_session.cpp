@@ -48,6 +48,33 @@ PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_
   return prepare(suited_to(scene, stylus), filtered ? ahead : volume, stylus.workspace_half_extent, before);
 }
 
+std::vector<LoadedStructure> LiveSession::at_hand() const {
+  std::vector<LoadedStructure> all = felt_.structures;
+  if (offered_.volume && volume_ && io::raw_of(offered_.volume) == volume_) {
+    all.insert(all.end(), offered_.structures.begin(), offered_.structures.end());
+  }
+  return all;
+}
+
+bool LiveSession::has_read(const modes::Scene& scene) const {
+  if (!volume_ || scene.structures.empty()) return true;
+  const device::Specification stylus = planned_for();
+  const modes::Scene suited = suited_to(scene, stylus);
+  return are_loaded(suited, *plan_for(suited, *volume_, stylus.workspace_half_extent), at_hand());
+}
+
+std::function<PreparedScene()> LiveSession::reading(const modes::Scene& scene) const {
+  const device::Specification stylus = planned_for();
+  const bool is_ahead = offered_.volume && io::raw_of(offered_.volume) == volume_;
+  return [suited = suited_to(scene, stylus), scan = volume_, felt = is_ahead ? offered_.volume : felt_.volume,
+          extent = stylus.workspace_half_extent, before = at_hand()]() -> PreparedScene {
+    return {.plan = nullptr,
+            .source = nullptr,
+            .volume = felt,
+            .structures = load_structures(suited, *plan_for(suited, *scan, extent), scan, before)};
+  };
+}
+
 Snapshot LiveSession::snapshot(double change_s) const {
   Snapshot snapshot = snapshot_of(scene_, felt_, specification_);
   snapshot.change_s = change_s;

@@ -141,7 +141,32 @@ void edit(LoadedStructure& structure, const modes::SceneStructure& wanted,
   structure.before_edits = std::move(fields);
 }
 
+std::string segment_of(const modes::SceneStructure& wanted) {
+  return wanted.segment_number ? fmt::format("#{}", *wanted.segment_number) : wanted.segment;
+}
+
+/// The same outline with that reach, whatever its edits; null: there is none.
+const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double reach_mm,
+                                   const std::vector<LoadedStructure>& before) {
+  const std::string file = std::filesystem::path(wanted.file).string(), segment = segment_of(wanted);
+  const auto known = std::ranges::find_if(before, [&](const LoadedStructure& one) {
+    const bool same = modes::is_drawn(wanted) ? one.file.empty() && one.edits.front() == wanted.edits.front()
+                                              : one.file == file && one.segment == segment;
+    return same && one.distance->reach_mm() == reach_mm;
+  });
+  return known == before.end() ? nullptr : &*known;
+}
+
 }  // namespace
+
+bool are_loaded(const modes::Scene& scene, const modes::Plan& plan, const std::vector<LoadedStructure>& before) {
+  return std::ranges::all_of(plan.structures, [&](std::size_t n) {
+    const modes::SceneStructure& wanted = scene.structures[n];
+    const LoadedStructure* const known = find_loaded(wanted, reach_of(scene, wanted), before);
+    // Its fields are kept after each of its edits.
+    return known != nullptr && std::ranges::mismatch(wanted.edits, known->edits).in1 == wanted.edits.end();
+  });
+}
 
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
@@ -160,14 +185,8 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
   for (const std::size_t n : plan.structures) {
     const modes::SceneStructure& wanted = scene.structures[n];
     const std::filesystem::path file = wanted.file;
-    const std::string segment = wanted.segment_number ? fmt::format("#{}", *wanted.segment_number) : wanted.segment;
     const double reach = reach_of(scene, wanted);
-    const auto known = std::find_if(before.begin(), before.end(), [&](const LoadedStructure& one) {
-      const bool same = modes::is_drawn(wanted) ? one.file.empty() && one.edits.front() == wanted.edits.front()
-                                                : one.file == file.string() && one.segment == segment;
-      return same && one.distance->reach_mm() == reach;
-    });
-    if (known != before.end()) {
+    if (const LoadedStructure* const known = find_loaded(wanted, reach, before)) {
       loaded.push_back(*known);
       edit(loaded.back(), wanted, scan);
       continue;
@@ -184,8 +203,8 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       if (const Text off = off_scan(structure, io::box_of(structure), volume.geometry); !off.empty()) {
         structure.warnings.push_back(off);
       }
-      loaded.push_back(
-          {file.string(), segment, structure.warnings, registered, shared_distance(structure, volume.geometry, reach)});
+      loaded.push_back({file.string(), segment_of(wanted), structure.warnings, registered,
+                        shared_distance(structure, volume.geometry, reach)});
       edit(loaded.back(), wanted, scan);
     } catch (const io::DicomError& error) {
       refuse(wanted, error.text());

@@ -44,4 +44,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
                                              const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});
 
+/// Whether load_structures() finds all that the plan reads among these: it then reads no file and computes no field.
+bool are_loaded(const modes::Scene& scene, const modes::Plan& plan, const std::vector<LoadedStructure>& before);
+
 }  // namespace palpate::plugin

@@ -187,6 +187,7 @@ void PanelParts::leave_views() {
   studies.cancel();
   studying->hide();
   studied.reset();
+  model.drop_waiting();
   filter->give_up();
   open_views.set({});
   flow.set_volume({});

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
-#include "plugin/paraview/client/model/structure_presses.h"
 #include "plugin/paraview/client/model/testing/made_text.h"
 
 namespace palpate::plugin {
@@ -486,15 +485,21 @@ TEST_F(Correcting, WhatIsPressedWhileAStepWaitsIsDoneAfterIt) {
 /// As in the panel: each step is done once what it needs was read.
 struct CorrectingSlowly : Correcting {
   CorrectingSlowly() {
-    model.set_press([this](const QString& what, const SceneModel::Change& change) { presses.press(what, change, {}); });
+    scene.set_read([this](const modes::Scene&, auto done) {
+      if (std::exchange(is_read, false)) return false;
+      reading.push_back(std::move(done));
+      return true;
+    });
   }
   void all_is_read() {
-    while (!reading.empty()) std::exchange(reading, {}).back()({});
+    while (!reading.empty()) {
+      is_read = true;
+      std::exchange(reading, {}).back()({});
+    }
   }
 
+  bool is_read = false;  // what the next change needs
   std::vector<std::function<void(const QString&)>> reading;
-  StructurePresses presses{scene, [this](const modes::Scene&, auto done) { reading.push_back(std::move(done)); },
-                           [](const QString&, bool) {}};
 };
 
 TEST_F(CorrectingSlowly, EachOfSeveralQuickRedosIsTheNext) {

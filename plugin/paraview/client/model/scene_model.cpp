@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/model/scene_model.h"
 
 #include <exception>
+#include <utility>
 
 #include "modes/scene/scene_json.h"
 
@@ -55,29 +56,93 @@ bool SceneModel::propose(const modes::Scene& scene) {
 
 void SceneModel::follow_text() {
   const std::string text = kept_.text(scene_key);
-  if (text != text_ && !text.empty()) take_text(text, true);
+  if (text != text_ && !text.empty()) make_ready(text);
 }
 
-void SceneModel::take_text(const std::string& text, bool when_ready) {
-  QString why;
+void SceneModel::make_ready(const std::string& text) {
   try {
-    modes::Scene scene = scene_of(text);
-    const bool cleaned = clean_ && clean_(scene);
     const auto ready = [this, text] {
-      if (text == kept_.text(scene_key)) take_text(text, false);
+      put({.kind = Step::Kind::text, .what = {}, .change = {}, .told = {}, .text = text});
     };
-    if (when_ready && make_ready_ && make_ready_(scene, ready)) return;
-    why = take(scene, Pace::stepped);
-    if (why.isEmpty()) {
-      text_ = text;
-      if (cleaned) put_back();
-      return;
-    }
+    if (!make_ready_ || !make_ready_(scene_of(text), ready)) ready();
   } catch (const std::exception& error) {
-    why = QString::fromUtf8(error.what());
+    refuse_text(QString::fromUtf8(error.what()));
   }
+}
+
+void SceneModel::refuse_text(const QString& why) {
   emit refused(why);
   put_back();
+}
+
+void SceneModel::put(Step step) {
+  if (!reading_) return run(step);
+  if (step.kind == Step::Kind::drag && !waiting_.empty() && waiting_.back().kind == Step::Kind::drag)
+    waiting_.pop_back();
+  waiting_.push_back(std::move(step));
+}
+
+void SceneModel::run(const Step& step) {
+  if (step.kind == Step::Kind::text) return run_text(step);
+  if (step.kind == Step::Kind::finish) return keep(step.what);
+  modes::Scene scene = scene_;
+  step.change(scene);
+  if (waits_for(scene, step)) return;
+  const QString why = take(scene, step.kind == Step::Kind::drag ? Pace::dragged : Pace::stepped);
+  if (why.isEmpty() && step.kind == Step::Kind::edit) keep(step.what);
+  tell(why, step.told);
+}
+
+void SceneModel::run_text(const Step& step) {
+  if (step.text != kept_.text(scene_key)) return;
+  try {
+    modes::Scene scene = scene_of(step.text);
+    const bool cleaned = clean_ && clean_(scene);
+    if (waits_for(scene, step)) return;
+    const QString why = take(scene, Pace::stepped);
+    if (!why.isEmpty()) return refuse_text(why);
+    text_ = step.text;
+    if (cleaned) put_back();
+  } catch (const std::exception& error) {
+    refuse_text(QString::fromUtf8(error.what()));
+  }
+}
+
+bool SceneModel::waits_for(const modes::Scene& scene, const Step& step) {
+  const auto done = [this, run = ++run_](const QString& error) {
+    if (run == run_) finish_reading(error);
+  };
+  if (!read_ || !read_(scene, done)) return false;
+  reading_ = step;
+  return true;
+}
+
+void SceneModel::finish_reading(const QString& error) {
+  const Step step = *std::exchange(reading_, std::nullopt);
+  if (error.isEmpty()) {
+    run(step);
+  } else if (step.kind == Step::Kind::text) {
+    if (step.text == kept_.text(scene_key)) refuse_text(error);
+  } else {
+    tell(error, step.told);
+  }
+  go_on();
+}
+
+void SceneModel::go_on() {
+  while (!reading_ && !waiting_.empty()) {
+    const Step next = std::move(waiting_.front());
+    waiting_.pop_front();
+    run(next);
+  }
+}
+
+void SceneModel::drop_waiting() {
+  std::erase_if(waiting_, [](const Step& step) { return step.kind != Step::Kind::text; });
+  if (!reading_ || reading_->kind == Step::Kind::text) return;
+  ++run_;
+  reading_.reset();
+  go_on();
 }
 
 void SceneModel::put_back() {
@@ -114,27 +179,19 @@ void SceneModel::keep(const QString& what) {
 }
 
 void SceneModel::edit(const QString& what, const Change& change, const Told& told) {
-  modes::Scene scene = scene_;
-  change(scene);
-  const QString why = take(scene, Pace::stepped);
-  if (why.isEmpty()) keep(what);
-  tell(why, told);
+  put({.kind = Step::Kind::edit, .what = what, .change = change, .told = told, .text = {}});
 }
 
 void SceneModel::drag(const Change& change, const Told& told) {
-  modes::Scene scene = scene_;
-  change(scene);
-  tell(take(scene, Pace::dragged), told);
+  put({.kind = Step::Kind::drag, .what = {}, .change = change, .told = told, .text = {}});
 }
 
 void SceneModel::pass(const Change& change, const Told& told) {
-  modes::Scene scene = scene_;
-  change(scene);
-  tell(take(scene, Pace::stepped), told);
+  put({.kind = Step::Kind::pass, .what = {}, .change = change, .told = told, .text = {}});
 }
 
 void SceneModel::finish_drag(const QString& what) {
-  keep(what);
+  put({.kind = Step::Kind::finish, .what = what, .change = {}, .told = {}, .text = {}});
 }
 
 }  // namespace palpate::plugin

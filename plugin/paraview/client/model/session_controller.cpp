@@ -32,6 +32,7 @@ void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
 SessionController::SessionController(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
   setObjectName(QStringLiteral("palpateSession"));
   model.set_commit([this](const modes::Scene& scene, Pace pace) { commit(scene, pace); });
+  model.set_read([this](const modes::Scene& scene, auto done) { return read(scene, std::move(done)); });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
   connect(&looks_, &QTimer::timeout, this, [this] { look(); });
   looks_.setTimerType(Qt::PreciseTimer);
@@ -41,6 +42,7 @@ SessionController::SessionController(SceneModel& model, QObject* parent) : QObje
 
 SessionController::~SessionController() {
   model_.set_commit({});
+  model_.set_read({});
   live_.disconnect();
 }
 
@@ -84,6 +86,26 @@ void SessionController::commit(const modes::Scene& scene, Pace pace) {
   if (live_.scan()) refuse_misfit(scene, *live_.scan());
   live_.set_scene(scene, pace);
   follow_workspace();
+}
+
+/// In the background: neither panel nor servo waits for files.
+bool SessionController::read(const modes::Scene& scene, std::function<void(const QString& error)> done) {
+  if (expects_scan_ || !live_.scan()) return false;
+  try {
+    if (live_.has_read(scene)) return false;
+  } catch (const std::exception&) {
+    return false;  // it is refused
+  }
+  if (held_of_.lock() != live_.scan()) held_.clear();
+  held_of_ = live_.scan();
+  reading_.ask(live_.reading(scene), [this, done = std::move(done)](const auto& read, const QString& error) {
+    if (read) {
+      held_.insert(held_.end(), read->structures.begin(), read->structures.end());
+      live_.offer(PreparedScene(*read));
+    }
+    done(error);
+  });
+  return true;
 }
 
 void SessionController::follow_workspace() {

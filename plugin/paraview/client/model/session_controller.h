@@ -19,6 +19,7 @@
 #include "modes/scene/workspace.h"
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
+#include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/paraview/client/model/slow_work.h"
 #include "plugin/recording/marks.h"
@@ -148,6 +149,7 @@ class SessionController : public QObject {
   void give_way();
   void tell_recorded(const std::optional<RecorderStatus>& status);
   void commit(const modes::Scene& scene, Pace pace);
+  bool read(const modes::Scene& scene, std::function<void(const QString& error)> done);
   void follow_workspace();
   void look();
   /// Those that were pressed and those that were let go since the last look.
@@ -180,6 +182,9 @@ class SessionController : public QObject {
   std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, looks_;
+  std::vector<LoadedStructure> held_;  // what scenes of this scan read: undoing finds it again
+  std::weak_ptr<const io::Volume> held_of_;
+  Job reading_;
 };
 
 }  // namespace palpate::plugin

@@ -10,6 +10,7 @@ std::function<Profile()> StrokeRunner::run(const WantedStroke& stroke) {
   const device::Specification stylus =
       live.is_connected() ? live.specification() : device::SimulatedStylus().specification();
   if (prepared_.felt.volume != live.felt_scan()) prepared_ = {.felt = {.volume = live.felt_scan()}};
+  prepared_.read_ahead = live.felt().structures;
   prepared_ = {.felt = prepare(live.scene(), live.scan(), stylus.workspace_half_extent, prepared_),
                .scene = live.scene()};
   // The plan is the one that is felt: as stiff as the stylus stands, placed as it is held.

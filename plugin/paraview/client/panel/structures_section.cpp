@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPixmap>
+#include <QPointer>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QToolButton>
@@ -13,7 +14,6 @@
 #include <string>
 #include <utility>
 
-#include "device/simulated/simulated_stylus.h"
 #include "io/fields/filtered.h"
 #include "io/structures/outline_change.h"
 #include "modes/types/mode_type.h"
@@ -62,17 +62,7 @@ bool StructuresSection::is_edited(const Entry& entry) {
 
 StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching,
                                      CorrectionModel& correction, QWidget* parent)
-    : QWidget(parent),
-      model_(model),
-      touching_(touching),
-      correction_(correction),
-      drawn_(views),
-      presses_(
-          model, [this](const modes::Scene& edited, auto done) { read_for(edited, std::move(done)); },
-          [this](const QString& text, bool problem) {
-            tell(text, problem);
-            follow_strokes();
-          }) {
+    : QWidget(parent), model_(model), touching_(touching), correction_(correction), drawn_(views) {
   setObjectName(QStringLiteral("palpateStructures"));
   setAcceptDrops(true);
   build();
@@ -81,7 +71,11 @@ StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, Sessio
   });
   correction.set_press([this](const QString& what, const SceneModel::Change& change) {
     tell({}, false);
-    presses_.press(what, change, {});
+    model_.edit(what, change, [alive = QPointer(this)](const QString& why) {
+      if (!alive) return;
+      alive->tell(why, !why.isEmpty());
+      alive->follow_strokes();
+    });
     follow_strokes();
   });
   correction.set_find([this](const io::Structure* structure, auto done) { find_doubtful(structure, std::move(done)); });
@@ -104,17 +98,14 @@ void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const s
   correction_.forget();  // while the scan is here: the scene follows
   finding_.cancel();
   making_.cancel();
-  using_.cancel();
   measuring_margins_.cancel();
   margins_from_ = nullptr;
   keep_outs_.clear();
   margins_.clear();
-  presses_.drop();
   scan_ = std::move(scan);
   entries_.clear();
   looked_into_.clear();
   waiting_.clear();
-  held_.clear();
   asked_ = false;
   served_ = false;
   problem_.clear();
@@ -418,30 +409,11 @@ void StructuresSection::use(const QString& what, const Edit& edit) {
   if (!scan_ || !chosen()) return;
   chosen()->shown = true;
   tell(tr("Reading…"), false);
-  presses_.press(what, edit, words(chosen()->off));
-}
-
-/// What the edited scene will need, in the background: neither panel nor servo waits for it.
-void StructuresSection::read_for(const modes::Scene& edited, std::function<void(const QString& error)> done) {
-  const glm::dvec3 extent =
-      (touching_.live().is_connected() ? touching_.live().specification() : device::SimulatedStylus().specification())
-          .workspace_half_extent;
-  // What is felt is not read again: an edit is felt at once.
-  const PreparedScene& now = touching_.live().felt();
-  const bool same = now.volume && io::raw_of(now.volume) == io::raw_of(scan_);
-  using_.ask(
-      [edited, scan = scan_, extent, before = same ? now.structures : std::vector<LoadedStructure>()] {
-        return load_structures(edited, *plan_for(edited, *scan, extent), scan, before);
-      },
-      [this, done = std::move(done)](const auto& read, const QString& error) {
-        if (read) {
-          held_.insert(held_.end(), read->begin(), read->end());
-          // The session takes it over as it is: this thread reads no file.
-          touching_.offer(
-              {.plan = nullptr, .source = nullptr, .volume = touching_.live().felt_scan(), .structures = *read});
-        }
-        done(error);
-      });
+  model_.edit(what, edit, [alive = QPointer(this), note = words(chosen()->off)](const QString& why) {
+    if (!alive) return;
+    alive->tell(why.isEmpty() ? note : why, !why.isEmpty() || !note.isEmpty());
+    alive->follow_strokes();
+  });
 }
 
 QString StructuresSection::in_words() const {

@@ -16,7 +16,6 @@
 #include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/model/correction_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
-#include "plugin/paraview/client/model/structure_presses.h"
 #include "plugin/paraview/client/panel/made_structure.h"
 #include "plugin/paraview/client/panel/outline_margins.h"
 #include "plugin/paraview/client/views/structure_views.h"
@@ -101,7 +100,6 @@ class StructuresSection : public QWidget {
   Entry* chosen();
   void fill_gates(QMenu& menu);
   void use(const QString& what, const Edit& edit);
-  void read_for(const modes::Scene& edited, std::function<void(const QString& error)> done);
   void correct(bool on);
   void follow_correction();
   void follow_strokes();
@@ -134,18 +132,15 @@ class StructuresSection : public QWidget {
   bool served_ = false;                         // by a server
   QString problem_;                             // of what is being looked into: some of it is not here
   bool listing_ = false;
-  std::vector<LoadedStructure> held_;  // what the scene read: undoing finds it again
   StructureViews drawn_;
   Job finding_{Job::Newer::follows};
   Job making_{Job::Newer::follows};
-  Job using_{Job::Newer::follows};
   Job doubting_;
   Job looking_beside_;
   std::vector<KeepOut> keep_outs_;                         // that margins_ is of, or will be
   std::shared_ptr<const io::DistanceField> margins_from_;  // the same
   std::vector<OutlineMargin> margins_;
   Job measuring_margins_{Job::Newer::follows};
-  StructurePresses presses_;
 };
 
 }  // namespace palpate::plugin

@@ -59,7 +59,7 @@ void StructuresSection::follow_correction() {
 
 /// What goes out is what was drawn: a stroke that is on its way is waited for.
 void StructuresSection::follow_strokes() {
-  correct_box_->set_whole(corrected() != nullptr && !presses_.is_busy());
+  correct_box_->set_whole(corrected() != nullptr && !model_.is_waiting());
 }
 
 QString StructuresSection::change_in_words() const {
