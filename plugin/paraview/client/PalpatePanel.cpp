@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/PalpatePanel.h"
 
 #include <pqActiveObjects.h>
+#include <pqCoreUtilities.h>
 #include <pqQVTKWidget.h>
 #include <pqView.h>
 
@@ -12,6 +13,7 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QKeyEvent>
+#include <QMainWindow>
 #include <QMimeData>
 #include <QTimer>
 #include <QUrl>
@@ -51,7 +53,8 @@ bool has_view_keys() {
 PalpatePanel::PalpatePanel(QWidget* parent)
     : QDockWidget(parent),
       translation_(std::make_unique<palpate::plugin::Translation>()),
-      parts_(std::make_unique<palpate::plugin::PanelParts>(*this)) {
+      parts_(std::make_unique<palpate::plugin::PanelParts>(
+          *this, *qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))) {
   setWindowTitle(tr("Palpate"));
   setObjectName(QStringLiteral("PalpatePanel"));
   setAcceptDrops(true);
@@ -69,7 +72,7 @@ void PalpatePanel::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void PalpatePanel::dropEvent(QDropEvent* event) {
-  parts_->scan->open_later(event->mimeData()->urls().first().toLocalFile());
+  parts_->column->scan->open_later(event->mimeData()->urls().first().toLocalFile());
 }
 
 /// M in a view is the mark button. It is let go wherever the keyboard has gone meanwhile.

@@ -26,20 +26,14 @@ namespace palpate::plugin {
 /// ParaView's window as a clinician's: one toolbar, the views, the panel.
 void PanelParts::build_toolbar() {
   auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-  look_box = new VolumeLookBox(window);
-  toolbar = new ClinicalToolbar(*new WindowBox(scans, readers.views(), window), *look_box, window);
-  QObject::connect(look_box, &VolumeLookBox::felt_chosen, &dock, [this] { show_felt(true); });
-  QObject::connect(look_box, &VolumeLookBox::look_chosen, &dock, [this](const VolumeLook& chosen) {
-    show_felt(false);
-    change_volume([&](vtkSMProxy& volume) { set_volume_look(volume, chosen); });
-  });
+  toolbar = new ClinicalToolbar(*new WindowBox(scans, readers.views(), window), looks.box(), window);
   window->addToolBar(Qt::TopToolBarArea, toolbar);
   layout = new HostLayout(*window, *toolbar, dock, &dock);
   add_help(*window);
   QObject::connect(toolbar, &ClinicalToolbar::folder_wanted, &dock,
-                   [this](const QString& folder) { scan->open(folder.toStdString()); });
+                   [this](const QString& folder) { column->scan->open(folder.toStdString()); });
   QObject::connect(toolbar, &ClinicalToolbar::picture_wanted, &dock, [this] { ask_picture(); });
-  QObject::connect(toolbar, &ClinicalToolbar::open_wanted, &dock, [this] { scan->ask_folder(); });
+  QObject::connect(toolbar, &ClinicalToolbar::open_wanted, &dock, [this] { column->scan->ask_folder(); });
   QObject::connect(toolbar, &ClinicalToolbar::enlarged_wanted, &dock, [this](bool enlarged) { enlarge(enlarged); });
   QObject::connect(toolbar, &ClinicalToolbar::measure_wanted, &dock,
                    [this](Measure measure) { readers.views().set_measure(measure); });
@@ -54,11 +48,11 @@ void PanelParts::build_toolbar() {
     const PatientVolume* const patient = readers.views().patient();
     toolbar->show_volume_cuts(patient && patient->can_cut(), patient && patient->can_crop());
   });
-  QObject::connect(toolbar, &ClinicalToolbar::connect_wanted, stylus, &StylusSection::connect_or_not);
+  QObject::connect(toolbar, &ClinicalToolbar::connect_wanted, column->stylus, &StylusSection::connect_or_not);
   QObject::connect(toolbar, &ClinicalToolbar::release_wanted, &dock, [this] { touching.release(); });
   QObject::connect(toolbar, &ClinicalToolbar::advanced_wanted, layout, &HostLayout::set_advanced);
   QObject::connect(layout, &HostLayout::advanced_changed, toolbar, &ClinicalToolbar::show_advanced);
-  QObject::connect(stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
+  QObject::connect(column->stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
   readers.views().set_enlarged_changed([this](bool enlarged) { toolbar->show_enlarged(enlarged); });
 }
 

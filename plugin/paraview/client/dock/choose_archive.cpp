@@ -25,8 +25,8 @@ std::optional<io::Archive> PanelParts::choose_archive(const io::Series& of, cons
   }
   if (archives.empty()) {
     tell_problem(words(say("no-archive-here-yet")));
-    scan_fold->set_open(true);
-    scan->show_archive();
+    column->scan_fold->set_open(true);
+    column->scan->show_archive();
     return std::nullopt;
   }
   SendDialog dialog(of, content, std::move(archives), &dock);

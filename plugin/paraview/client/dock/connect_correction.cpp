@@ -1,5 +1,3 @@
-#include <pqActiveObjects.h>
-#include <pqRenderView.h>
 #include <pqUndoStack.h>
 
 #include <QFileDialog>
@@ -14,7 +12,6 @@
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/footer.h"
 #include "plugin/paraview/client/panel/outline_out.h"
-#include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/words.h"
 
@@ -24,21 +21,15 @@ namespace palpate::plugin {
 
 void PanelParts::connect_correction() {
   correction.set_outline([this](const io::Vec3& place) -> std::optional<double> {
-    const auto outline = structures->corrected();
+    const auto outline = column->structures->corrected();
     return outline ? std::optional(outline->sample(place).mm) : std::nullopt;
   });
   QObject::connect(&correction, &CorrectionModel::changed, &dock, [this] {
-    share_picks();
-    curves->set_key_undoes(!correction.structure());
-    footer->set_corrects(correction.structure() != nullptr);
+    column->curves->set_key_undoes(!correction.structure());
+    column->footer->set_corrects(correction.structure() != nullptr);
   });
-  QObject::connect(&correction, &CorrectionModel::stroke_changed, &dock, [this] {
-    SCOPED_UNDO_EXCLUDE();
-    const bool on_slice = correction.stroke_over() == CorrectionModel::Over::slice;
-    drawn_stroke.show(correction.stroke(), on_slice && !correction.stroke().empty());
-  });
-  QObject::connect(&structures->correct_box(), &CorrectBox::slice_wanted, &dock,
-                   [this](bool held) { correction.hold_in(held ? marked_slice() : std::nullopt); });
+  QObject::connect(&column->structures->correct_box(), &CorrectBox::slice_wanted, &dock,
+                   [this](bool held) { correction.hold_in(held ? strokes->marked_slice() : std::nullopt); });
   QObject::connect(&correction, &CorrectionModel::place_wanted, &dock, [this](const io::DoubtfulPlace& place) {
     SCOPED_UNDO_EXCLUDE();
     readers.views().show_point(place.position_mm);
@@ -48,66 +39,10 @@ void PanelParts::connect_correction() {
       touching.move_hand(place.position_mm + before_mm * place.normal);
     }
   });
-  QObject::connect(&structures->correct_box(), &CorrectBox::save_wanted, &dock, [this] { save_outline(); });
-  QObject::connect(&structures->correct_box(), &CorrectBox::send_wanted, &dock, [this] { send_outline(); });
-  QObject::connect(&structures->correct_box().out(), &OutlineOut::told, structures, &StructuresSection::tell);
-}
-
-/// The left button beside the stylus: for the force profile's points, else for strokes on the slices.
-void PanelParts::share_picks() {
-  std::function<void(Pick, const glm::dvec3&)> on_slices, in_volume;
-  if (profile_picks) {
-    on_slices = in_volume = [this](Pick what, const glm::dvec3& place) { profile->pick(what, place); };
-  } else if (correction.structure()) {
-    on_slices = [this](Pick what, const glm::dvec3& place) {
-      if (what == Pick::pressed) correction.press(place);
-      if (what == Pick::moved) correction.move(place);
-      if (what == Pick::let_go) correction.let_go();
-    };
-  }
-  views.set_rays(
-      correction.structure() && !profile_picks
-          ? [this](Pick what, const auto& near, const auto& far) { return stroke_over_outline(what, near, far); }
-          : StylusViews::Rays());
-  readers.views().set_pick(on_slices);
-  views.set_pick(in_volume);
-}
-
-/// In the volume view, where the pointer is over the outline, and that is seen; beside it the view is turned.
-bool PanelParts::stroke_over_outline(Pick what, const glm::dvec3& near, const glm::dvec3& far) {
-  const auto outline = structures->corrected();
-  const auto place = outline ? first_on_outline(*outline, near, far) : std::nullopt;
-  if (what == Pick::pressed && (!place || !structures->shows_corrected())) return false;
-  if (what == Pick::pressed) correction.press(*place, CorrectionModel::Over::outline);
-  if (what == Pick::moved && place) correction.move(*place);
-  if (what == Pick::let_go) correction.let_go();
-  return true;
-}
-
-/// The slice in the view that is marked, or else the axial one.
-std::optional<HeldPlane> PanelParts::marked_slice() const {
-  std::optional<HeldPlane> axial;
-  for (const ClinicalView& one : open_views.now()) {
-    if (!one.slice) continue;
-    const HeldPlane plane{.point_mm = one.slice->place_at({0, 0}), .normal = one.slice->sight().along};
-    if (one.view == pqActiveObjects::instance().activeView()) return plane;
-    if (one.kind == ViewKind::axial) axial = plane;
-  }
-  return axial;
-}
-
-/// Another slice is shown in the view of the one that the hand is held in: the hand is held in that.
-void PanelParts::follow_held_slice(const SliceView& shown) {
-  const auto held = correction.held_in();
-  if (!held || shown.sight().along != held->normal) return;
-  correction.follow_slice({.point_mm = shown.place_at({0, 0}), .normal = held->normal});
-}
-
-/// Of what adds or removes, at the place under the pointer.
-void PanelParts::show_brush(const std::optional<glm::dvec3>& at) {
-  SCOPED_UNDO_EXCLUDE();
-  const bool is_seen = at && correction.structure() && correction.tool() != CorrectionModel::Tool::trace;
-  brush.show(is_seen ? std::optional(Brush{*at, correction.radius_mm()}) : std::nullopt);
+  QObject::connect(&column->structures->correct_box(), &CorrectBox::save_wanted, &dock, [this] { save_outline(); });
+  QObject::connect(&column->structures->correct_box(), &CorrectBox::send_wanted, &dock, [this] { send_outline(); });
+  QObject::connect(&column->structures->correct_box().out(), &OutlineOut::told, column->structures,
+                   &StructuresSection::tell);
 }
 
 /// What the stylus drew while its button was held.
@@ -120,7 +55,7 @@ void PanelParts::draw_felt(const MarkMade& made) {
 }
 
 std::optional<CorrectedOutline> PanelParts::corrected_outline() {
-  const auto distance = structures->corrected();
+  const auto distance = column->structures->corrected();
   if (!correction.structure() || !scans.shown() || !distance) return std::nullopt;
   const ScanHandle& handle = *scans.shown();
   const io::Series* const series = handle.of.details();
@@ -147,7 +82,7 @@ void PanelParts::save_outline() {
       kinds.join(QStringLiteral(";;")), &kind);
   // The dialog has asked whether an existing file may be overwritten.
   if (file.isEmpty()) return;
-  structures->correct_box().out().save(
+  column->structures->correct_box().out().save(
       *outline, file.toStdString(), kind == contours, true,
       [this, structure = outline->structure, edits] { unsaved.note_outline_saved(structure, edits); });
 }
@@ -157,16 +92,16 @@ void PanelParts::send_outline() {
   const auto outline = corrected_outline();
   if (!outline) return;
   if (!scans.shown()->of.details()) {
-    structures->tell(words(say("outline-needs-the-images")), true);
+    column->structures->tell(words(say("outline-needs-the-images")), true);
     return;
   }
   const auto edits = correction.edits();  // that the outline has
   const SendDialog::Content content =
-      SendDialog::of_outline(QString::fromStdString(outline->structure.name), structures->change_in_words());
-  const auto archive =
-      choose_archive(outline->series, content, [this](const QString& problem) { structures->tell(problem, true); });
+      SendDialog::of_outline(QString::fromStdString(outline->structure.name), column->structures->change_in_words());
+  const auto archive = choose_archive(outline->series, content,
+                                      [this](const QString& problem) { column->structures->tell(problem, true); });
   if (!archive) return;
-  structures->correct_box().out().send(*outline, *archive, [this, structure = outline->structure, edits] {
+  column->structures->correct_box().out().send(*outline, *archive, [this, structure = outline->structure, edits] {
     unsaved.note_outline_saved(structure, edits);
   });
 }

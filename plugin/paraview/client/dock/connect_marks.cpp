@@ -23,18 +23,18 @@ namespace palpate::plugin {
 void PanelParts::connect_marks() {
   QObject::connect(&touching, &SessionController::marked, &dock,
                    [this](const MarkMade& made) { correction.structure() ? draw_felt(made) : marks.add(made); });
-  QObject::connect(&marks, &MarksModel::changed, &dock, [this] { drawn_marks.refresh(); });
-  QObject::connect(&marks, &MarksModel::added, &dock, [this] { marks_fold->set_open(true); });
-  QObject::connect(marks_list, &MarksSection::listed, &dock, [this] {
-    const QString words = marks_list->in_words();
-    marks_fold->set_note(words);
+  QObject::connect(&marks, &MarksModel::changed, &dock, [this] { layers.marks.refresh(); });
+  QObject::connect(&marks, &MarksModel::added, &dock, [this] { column->marks_fold->set_open(true); });
+  QObject::connect(column->marks, &MarksSection::listed, &dock, [this] {
+    const QString words = column->marks->in_words();
+    column->marks_fold->set_note(words);
     toolbar->show_marks(words);
   });
-  QObject::connect(marks_list, &MarksSection::send_wanted, &dock, [this] { send_marks(); });
-  QObject::connect(toolbar, &ClinicalToolbar::marks_wanted, &dock, [this] { marks_fold->set_open(true); });
-  QObject::connect(marks_list, &MarksSection::chosen, &dock,
-                   [this](const std::vector<std::size_t>& chosen) { drawn_marks.set_chosen(chosen); });
-  QObject::connect(marks_list, &MarksSection::place_wanted, &dock, [this](const glm::dvec3& place) {
+  QObject::connect(column->marks, &MarksSection::send_wanted, &dock, [this] { send_marks(); });
+  QObject::connect(toolbar, &ClinicalToolbar::marks_wanted, &dock, [this] { column->marks_fold->set_open(true); });
+  QObject::connect(column->marks, &MarksSection::chosen, &dock,
+                   [this](const std::vector<std::size_t>& chosen) { layers.marks.set_chosen(chosen); });
+  QObject::connect(column->marks, &MarksSection::place_wanted, &dock, [this](const glm::dvec3& place) {
     SCOPED_UNDO_EXCLUDE();
     readers.views().show_point(place);
   });
@@ -44,7 +44,7 @@ void PanelParts::connect_marks() {
 void PanelParts::send_marks() {
   const io::Series* const series = scans.shown() ? scans.shown()->of.details() : nullptr;
   if (!series) {
-    marks_list->tell(words(say("marks-need-the-images")), true);
+    column->marks->tell(words(say("marks-need-the-images")), true);
     return;
   }
   // Copies: another scan may be opened while the dialog is.
@@ -53,10 +53,10 @@ void PanelParts::send_marks() {
   const Marks shown = marks.marks();
   const std::string scan_of_marks = marks.scan();
   const auto archive = choose_archive(of, SendDialog::of_marks(of, shown),
-                                      [this](const QString& problem) { marks_list->tell(problem, true); });
+                                      [this](const QString& problem) { column->marks->tell(problem, true); });
   if (!archive) return;
-  marks_list->sender().send(*archive, of, volume, shown,
-                            [this, scan_of_marks, shown] { unsaved.note_marks_saved(scan_of_marks, shown); });
+  column->marks->sender().send(*archive, of, volume, shown,
+                               [this, scan_of_marks, shown] { unsaved.note_marks_saved(scan_of_marks, shown); });
 }
 
 void PanelParts::show_marks(const ScanHandle& handle) {
@@ -65,8 +65,8 @@ void PanelParts::show_marks(const ScanHandle& handle) {
 }
 
 void PanelParts::leave_marks() {
-  marks_list->sender().leave_scan();
-  marks_list->tell({}, false);  // it was about the scan before
+  column->marks->sender().leave_scan();
+  column->marks->tell({}, false);  // it was about the scan before
   marks.set_scan({});
 }
 

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 #include <optional>
@@ -26,82 +27,67 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_session() {
-  QObject::connect(stylus, &StylusSection::stylus_wanted, &dock, [this] {
+  QObject::connect(column->stylus, &StylusSection::stylus_wanted, &dock, [this] {
     SCOPED_UNDO_EXCLUDE();
     if (touching.last().is_seen()) readers.views().show_point(touching.last().proxy_mm);
   });
-  readers.views().set_leafed([this] { stylus->pause_following(); });
+  readers.views().set_leafed([this] { column->stylus->pause_following(); });
   touching.set_start([this](const device::Specification& device) { return start_of(device); });
-  QObject::connect(&touching, &SessionController::recorded, recordings, [this](const QString& file) {
-    recordings_fold->set_open(true);
-    recordings->open(file);
+  QObject::connect(&touching, &SessionController::recorded, column->recordings, [this](const QString& file) {
+    column->recordings_fold->set_open(true);
+    column->recordings->open(file);
   });
   QObject::connect(&sharing, &SharingModel::folder_wanted, &dock,
-                   [this](const QString& folder) { scan->open(folder.toStdString()); });
-  // As soon as others had their turn.
-  next_turn.setSingleShot(true);
-  next_turn.setInterval(0);
-  QObject::connect(&next_turn, &QTimer::timeout, &dock, [this] { draw_stylus(); });
-  QObject::connect(&touching, &SessionController::looked, &dock, [this](const SessionStatus& seen) { look(seen); });
+                   [this](const QString& folder) { column->scan->open(folder.toStdString()); });
+  QObject::connect(&touching, &SessionController::looked, &dock,
+                   [this, followed = std::uint64_t{0}](const SessionStatus& seen) mutable {
+                     // A recording that stands still does not keep the slices from being leafed through.
+                     const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
+                     if (!layers.is_paused()) follow_stylus(seen, moved);
+                   });
   QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
-    modes->refresh();
+    column->modes->refresh();
     servers.be_attentive(touching.live().is_connected());
   });
-  const auto show_technical = [this](bool shown) {
-    modes->show_technical(shown);
-    stylus->show_technical(shown);
-  };
-  QObject::connect(footer, &Footer::technical_changed, &dock, show_technical);
-  show_technical(footer->is_technical());
-  // The threads end before ParaView goes, and before a server takes the views away.
+  // The session ends before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
-    ending = true;
-    studies.finish();
-    QObject::disconnect(&touching, &SessionController::recorded, recordings, nullptr);  // nobody looks at it any more
+    QObject::disconnect(&touching, &SessionController::recorded, column->recordings,
+                        nullptr);  // nobody looks at it any more
     sharing.turn_off();
     touching.disconnect_stylus();
   });
 }
 
-void PanelParts::look(const SessionStatus& seen) {
-  if (leaving) return;    // what is drawn now would ask a server that may be lost, and ParaView ends the program then
+void PanelParts::follow_stylus(const SessionStatus& seen, bool moved) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
-  // A recording that stands still does not keep the slices from being leafed through.
-  const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
   if (seen.connected) touching.keep_off(scans.why_not_felt());
   name_felt();
-  if (seen.is_seen() && moved && stylus->slices_follow()) {
+  if (seen.is_seen() && moved && column->stylus->slices_follow()) {
     const auto& held = correction.held_in();  // its view shows it, wherever the stylus is
     readers.views().show_point(seen.proxy_mm, held ? std::optional(held->normal) : std::nullopt);
   }
   if (seen.connected && !seen.held.empty()) {
-    curves->profile().touch_at(seen.proxy_mm, seen.probe_mm - seen.proxy_mm);
+    column->curves->profile().touch_at(seen.proxy_mm, seen.probe_mm - seen.proxy_mm);
   }
-  draw_stylus();
-}
-
-void PanelParts::draw_stylus() {
-  if (leaving) return;
-  SCOPED_UNDO_EXCLUDE();
-  if (views.show(touching.last())) next_turn.start();
+  layers.draw_stylus();
 }
 
 /// Scan, frame and scene: what the stylus has, whatever is looked at.
 void PanelParts::name_felt() {
   if (!scans.shown()) {
     const auto coming = scans.on_its_way();
-    footer->set_felt(coming ? tr("Opening %1…").arg(coming->label) : tr("No scan is open."), false);
+    column->footer->set_felt(coming ? tr("Opening %1…").arg(coming->label) : tr("No scan is open."), false);
     return;
   }
   const ScanHandle& handle = *scans.shown();
   const QStringList others = readers.others_shown();
-  const QString through = filter->in_words();
+  const QString through = column->filter->in_words();
   const QString felt =
       (touching.last().feels ? tr("Felt: %1. Scene: %2.") : tr("Open: %1. Scene: %2."))
           .arg(through.isEmpty() ? handle.in_words() : handle.in_words() + QStringLiteral(", ") + through,
-               tissues->scene_in_words());
+               column->tissues->scene_in_words());
   const QString beside = tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", ")));
-  footer->set_felt(others.isEmpty() ? felt : felt + QLatin1Char(' ') + beside, true);
+  column->footer->set_felt(others.isEmpty() ? felt : felt + QLatin1Char(' ') + beside, true);
 }
 
 /// In sight, in reach and outside of anything felt.
@@ -116,7 +102,7 @@ glm::dvec3 PanelParts::start_of(const device::Specification& of) {
   };
   const StartPlace start = find_start_place(
       volume, *plan, live.scene().gradient_scale_mm.value_or(io::default_gradient_scale_mm(volume->geometry)), in_reach,
-      [this](const glm::dvec3& place) { return views.shows(place); });
+      [this](const glm::dvec3& place) { return layers.stylus.shows(place); });
   if (!start.outside) {
     QMetaObject::invokeMethod(
         &dock, [this] { emit touching.told(words(say("no-place-outside-the-patient")), true); }, Qt::QueuedConnection);

@@ -29,23 +29,23 @@ void PanelParts::connect_start() {
     if (cover) cover->set_shown(making);
   });
   QObject::connect(layout, &HostLayout::advanced_changed, center, &EmptyCenter::set_advanced);
-  QObject::connect(page, &StartPage::open_wanted, scan, &ScanSection::ask_folder);
+  QObject::connect(page, &StartPage::open_wanted, column->scan, &ScanSection::ask_folder);
   QObject::connect(page, &StartPage::folder_wanted, scan,
-                   [this](const QString& folder) { scan->open(folder.toStdString()); });
+                   [this](const QString& folder) { column->scan->open(folder.toStdString()); });
   QObject::connect(page, &StartPage::series_wanted, &scans, &ScanModel::choose);
   QObject::connect(page, &StartPage::archive_wanted, scan, [this] {
-    scan_fold->set_open(true);
-    scan->show_archive();
+    column->scan_fold->set_open(true);
+    column->scan->show_archive();
   });
   QObject::connect(&scans, &ScanModel::listed, &dock, [this, page] {
     const FoundList* const found = scans.found();
     const bool several = found && found->catalogue && !found->catalogue->series.empty() && !found->only();
     page->set_catalogue(several ? found->catalogue : nullptr);
     if (!several) return;
-    scan_fold->set_open(true);
-    if (!scans.seen()) scan_fold->set_note({});
+    column->scan_fold->set_open(true);
+    if (!scans.seen()) column->scan_fold->set_note({});
   });
-  QObject::connect(scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
+  QObject::connect(column->scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
   QObject::connect(&scans, &ScanModel::told, page, &StartPage::tell);
   // Whose scan is coming is said at once, where the one before was named.
   QObject::connect(&scans, &ScanModel::changed, &dock, [this, page, cover = QPointer(cover)] {
@@ -55,11 +55,11 @@ void PanelParts::connect_start() {
     if (std::exchange(opening, words_now) == words_now) return;
     if (coming && !scans.seen()) page->tell(words_now);
     if (coming) {
-      scan_fold->set_note(words_now);
+      column->scan_fold->set_note(words_now);
     } else if (scans.shown()) {
       note_scan(*scans.shown());
     } else {
-      scan_fold->set_note({});
+      column->scan_fold->set_note({});
     }
   });
 
@@ -70,7 +70,7 @@ void PanelParts::connect_start() {
     sample->make();
   });
   QObject::connect(sample, &SampleScan::ready, scan,
-                   [this](const QString& folder) { scan->open(folder.toStdString()); });
+                   [this](const QString& folder) { column->scan->open(folder.toStdString()); });
   QObject::connect(sample, &SampleScan::failed, page, [page](const QString& why) { page->tell(why, true); });
 }
 

@@ -1229,34 +1229,10 @@
     </message>
 </context>
 <context>
-    <name>PanelParts</name>
-    <message>
-        <source>Another scan takes the place of this one.</source>
-        <translation>Eine andere Aufnahme tritt an die Stelle dieser.</translation>
-    </message>
-    <message>
-        <source>ParaView is about to end.</source>
-        <translation>ParaView wird beendet.</translation>
-    </message>
-    <message>
-        <source>All that is open is about to go.</source>
-        <translation>Alles, was offen ist, wird geschlossen.</translation>
-    </message>
-    <message>
-        <source>Save all that is open</source>
-        <translation>Alles Offene speichern</translation>
-    </message>
-    <message>
-        <source>ParaView states (*.pvsm)</source>
-        <translation>Zustände von ParaView (*.pvsm)</translation>
-    </message>
+    <name>Column</name>
     <message>
         <source>3D Slicer</source>
         <translation>3D Slicer</translation>
-    </message>
-    <message>
-        <source>drawing</source>
-        <translation>Zeichnen</translation>
     </message>
     <message>
         <source>Scan</source>
@@ -1299,10 +1275,6 @@
         <translation>Palpate %1. Forschungssoftware, kein Medizinprodukt.</translation>
     </message>
     <message>
-        <source>Looking for tissues %p%</source>
-        <translation>Gewebe werden gesucht %p%</translation>
-    </message>
-    <message>
         <source>Boundaries on the slices</source>
         <translation>Grenzen auf den Schichten</translation>
     </message>
@@ -1318,6 +1290,16 @@
         <source>Shows where the other two slices lie. Hold Shift, and they follow the pointer.</source>
         <translation>Zeigt, wo die beiden anderen Schichten liegen. Mit gedrückter Umschalttaste folgen sie dem Zeiger.</translation>
     </message>
+</context>
+<context>
+    <name>DrawnLayers</name>
+    <message>
+        <source>drawing</source>
+        <translation>Zeichnen</translation>
+    </message>
+</context>
+<context>
+    <name>PanelParts</name>
     <message>
         <source>Save a picture of the views</source>
         <translation>Ein Bild der Ansichten speichern</translation>
@@ -1373,6 +1355,40 @@
     <message>
         <source>Save the corrected outline</source>
         <translation>Korrigierten Umriss speichern</translation>
+    </message>
+</context>
+<context>
+    <name>TissueStudy</name>
+    <message>
+        <source>Looking for tissues %p%</source>
+        <translation>Gewebe werden gesucht %p%</translation>
+    </message>
+</context>
+<context>
+    <name>UnsavedGuard</name>
+    <message>
+        <source>Another scan takes the place of this one.</source>
+        <translation>Eine andere Aufnahme tritt an die Stelle dieser.</translation>
+    </message>
+    <message>
+        <source>ParaView is about to end.</source>
+        <translation>ParaView wird beendet.</translation>
+    </message>
+    <message>
+        <source>All that is open is about to go.</source>
+        <translation>Alles, was offen ist, wird geschlossen.</translation>
+    </message>
+    <message>
+        <source>Save all that is open</source>
+        <translation>Alles Offene speichern</translation>
+    </message>
+    <message>
+        <source>ParaView states (*.pvsm)</source>
+        <translation>Zustände von ParaView (*.pvsm)</translation>
+    </message>
+    <message>
+        <source>no such folder, or no right to it</source>
+        <translation>kein solcher Ordner, oder kein Recht, ihn zu lesen</translation>
     </message>
 </context>
 <context>

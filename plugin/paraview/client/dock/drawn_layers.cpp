@@ -1,0 +1,43 @@
+#include "plugin/paraview/client/dock/drawn_layers.h"
+
+#include <pqUndoStack.h>
+
+#include <QCoreApplication>
+
+namespace palpate::plugin {
+
+DrawnLayers::DrawnLayers(OpenViews& views, SessionController& touching, SceneModel& scene, const MarksModel& shown)
+    : flow(views),
+      boundaries(views),
+      crosshair(views),
+      marks(views, [&shown]() -> const Marks& { return shown.marks(); }),
+      stylus(views, touching, scene),
+      touching_(touching),
+      scene_(scene),
+      watch_(views, [&touching](double seconds) {
+        touching.note_work(QCoreApplication::translate("DrawnLayers", "drawing"), seconds);
+      }) {
+  // As soon as others had their turn.
+  next_turn_.setSingleShot(true);
+  next_turn_.setInterval(0);
+  QObject::connect(&next_turn_, &QTimer::timeout, [this] { draw_stylus(); });
+}
+
+void DrawnLayers::draw_boundaries(Pace pace) {
+  const LiveSession& live = touching_.live();
+  boundaries.set_felt(live.felt_scan(), scene_.scene(), live.plan(), pace);
+}
+
+void DrawnLayers::forget_scan() {
+  flow.set_volume({});
+  boundaries.set_felt({}, {}, {}, Pace::stepped);
+  memory.give_back_soon();
+}
+
+void DrawnLayers::draw_stylus() {
+  if (paused_) return;
+  SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
+  if (stylus.show(touching_.last())) next_turn_.start();
+}
+
+}  // namespace palpate::plugin

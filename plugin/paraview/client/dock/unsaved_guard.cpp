@@ -1,0 +1,93 @@
+#include "plugin/paraview/client/dock/unsaved_guard.h"
+
+#include <pqApplicationCore.h>
+
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QMainWindow>
+#include <QStandardPaths>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/layout/host_guards.h"
+#include "plugin/paraview/client/panel/unsaved_question.h"
+#include "plugin/paraview/client/widgets/file_name.h"
+#include "plugin/paraview/client/words.h"
+
+namespace palpate::plugin {
+namespace {
+
+QString now_in_a_name() {
+  return QDateTime::currentDateTime().toString(QStringLiteral("yyyyMMdd-HHmmss"));
+}
+
+}  // namespace
+
+UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& touching, QMainWindow& window)
+    : work_(work), touching_(touching), window_(window) {
+  auto* const application = pqApplicationCore::instance();
+  connect(application, &pqApplicationCore::stateSaved, this, [this] {
+    if (!saving_) work_.note_state_saved();
+  });
+  connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, [this] { ending_ = true; });
+  scans.set_may_leave([this] {
+    return may_lose(work_.of_scan(), tr("Another scan takes the place of this one."), [this] { work_.let_scene_go(); });
+  });
+  new HostGuards(
+      window,
+      [this] { return may_lose(work_.of_program(), tr("ParaView is about to end."), [this] { work_.let_all_go(); }); },
+      [this] {
+        return may_lose(work_.of_program(), tr("All that is open is about to go."), [this] { work_.let_all_go(); });
+      },
+      this);
+}
+
+/// Whether the user wants what follows: where something is not saved they are asked.
+bool UnsavedGuard::may_lose(const Unsaved& work, const QString& before, const std::function<void()>& let_go) {
+  if (!work.any()) return true;
+  switch (ask_what_becomes_of(work, before, &window_)) {
+    case UnsavedAnswer::save:
+      return save_state();
+    case UnsavedAnswer::discard:
+      let_go();
+      return true;
+    case UnsavedAnswer::cancel:
+      break;
+  }
+  return false;
+}
+
+bool UnsavedGuard::save_state() {
+  const QString file =
+      ask_file_to_write(&window_, tr("Save all that is open"), tr("ParaView states (*.pvsm)"), QStringLiteral("pvsm"),
+                        QStringLiteral("palpate-%1.pvsm").arg(now_in_a_name()));
+  return !file.isEmpty() && write_state(file);
+}
+
+bool UnsavedGuard::write_state(const QString& file) {
+  saving_ = true;
+  const bool written = pqApplicationCore::instance()->saveState(file);
+  saving_ = false;
+  if (written) {
+    work_.note_state_saved();
+  } else {
+    emit touching_.told(
+        words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())),
+        true);
+  }
+  return written;
+}
+
+QString UnsavedGuard::recover() {
+  if (ending_ || !work_.of_program().any()) return {};
+  const QString work = in_words(work_.of_program());
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + QStringLiteral("/palpate"));
+  folder.mkpath(QStringLiteral("."));
+  const QString file = folder.filePath(QStringLiteral("unsaved-%1.pvsm").arg(now_in_a_name()));
+  if (!write_state(file)) return {};
+  QFile::setPermissions(file, QFileDevice::ReadOwner | QFileDevice::WriteOwner);  // it names the patient's folder
+  return words(say("unsaved-work-is-kept", work.toStdString(), file.toStdString()));
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,47 @@
+#include "plugin/paraview/client/panel/tissue_study.h"
+
+#include <QCoreApplication>
+
+namespace palpate::plugin {
+
+TissueStudy::TissueStudy(SceneModel& model, SessionController& touching, QWidget* parent)
+    : QProgressBar(parent), model_(model), touching_(touching) {
+  setObjectName(QStringLiteral("palpateStudying"));
+  setFormat(tr("Looking for tissues %p%"));
+  hide();
+  connect(&model, &SceneModel::changed, this, [this] {
+    if (const auto felt = touching_.live().felt_scan(); felt && felt != studied_.lock()) study(felt);
+  });
+  // The thread ends before ParaView goes.
+  connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, [this] { job_.finish(); });
+}
+
+void TissueStudy::study(const std::shared_ptr<const io::Volume>& volume) {
+  studied_ = volume;
+  setValue(0);
+  show();
+  job_.study(
+      volume, [this](double done) { setValue(static_cast<int>(100 * done)); },
+      [this, unit = QString::fromStdString(volume->unit)](const auto& study, const std::string& error) {
+        hide();
+        if (study) take(study, unit);
+        if (!error.empty()) emit model_.refused(QString::fromStdString(error));
+      });
+}
+
+void TissueStudy::take(const std::shared_ptr<const ScanStudy>& study, const QString& unit) {
+  modes::Scene proposed = study->suggested;
+  proposed.workspace = model_.scene().workspace;
+  emit studied(study, proposed, unit);
+  touching_.set_sites(study->sites);
+  // What is felt or was edited already is not taken away from under the hand.
+  if (!model_.is_edited() && !touching_.live().is_connected()) model_.propose(proposed);
+}
+
+void TissueStudy::cancel() {
+  job_.cancel();
+  hide();
+  studied_.reset();
+}
+
+}  // namespace palpate::plugin
