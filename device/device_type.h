@@ -46,6 +46,7 @@ struct DeviceType {
   DeviceFile file = DeviceFile::none;
   std::string_view file_hint;  ///< what that file is
   bool has_force = true;
+  bool is_simulated = false;                     ///< arithmetic: no hardware, and it goes as fast as it is asked
   std::vector<FoundDevice> (*find)() = nullptr;  ///< never throws; null: it is always there
   /// Not open yet. Throws std::runtime_error naming the device, what is wrong with its settings and what to do.
   std::shared_ptr<Stylus> (*make)(const DeviceChoice& choice) = nullptr;

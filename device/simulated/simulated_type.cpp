@@ -22,6 +22,7 @@ const DeviceType simulated_type{
     .sold = "always there",
     .tested = "every study and test",
     .watchdog = "not needed: it pushes nobody",
+    .is_simulated = true,
     .make = &make,
 };
 

@@ -37,7 +37,8 @@ double damping_us() {
 std::vector<Saving> savings_of_device(const std::string& device, const device::Specification& specification) {
   std::vector<Saving> savings;
   const std::string kind = device.substr(0, device.find('@'));
-  const bool simulated = kind == "simulated";
+  const device::DeviceType* const type = device::find_device_type(kind);
+  const bool simulated = type != nullptr && type->is_simulated;
   std::string others;
   for (const device::DeviceType* driver : device::device_types()) {
     if (driver->find == nullptr || kind == driver->kind) continue;
@@ -46,7 +47,6 @@ std::vector<Saving> savings_of_device(const std::string& device, const device::S
   savings.push_back({.what = "drivers of " + others,
                      .why = simulated ? "the stylus is simulated" : "another stylus is held",
                      .saves = "a thread, and USB, HID, sockets and libraries that nobody opens"});
-  const device::DeviceType* const type = device::find_device_type(kind);
   if (type == nullptr || type->send_zeros == nullptr) {
     savings.push_back({.what = "guardian",
                        .why = simulated                       ? "a simulated stylus pushes nobody"

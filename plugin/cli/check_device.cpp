@@ -60,7 +60,7 @@ Felt felt(const device::AxisPush& push, bool yes) {
 
 /// Milliseconds of the clock; of a stylus that is arithmetic, as fast as it goes.
 std::function<double()> ticks_for(const StylusChoice& choice) {
-  if (choice.device == "simulated") {
+  if (type_of(choice).is_simulated) {
     return [now = 0.0]() mutable { return now += 1e-3; };
   }
   return [metronome = device::Metronome(1e-3)]() mutable {

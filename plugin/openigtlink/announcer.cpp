@@ -33,13 +33,13 @@ nlohmann::ordered_json number_or_null(double value) {
 
 StateInWords state_of_session(const TickRecord& tick) {
   if (const device::Fault fault = fault_of(tick); fault != device::Fault::none) {
-    return {"stopped", "Stopped: " + device::advice_for(fault)};
+    return {"stopped", "Stopped: " + device::advice_for(fault), Status::Code::hardware_failure};
   }
   switch (state_of(tick)) {
     case device::State::active:
-      return {"feeling", "Feeling: forces are on"};
+      return {"feeling", "Feeling: forces are on", Status::Code::ok};
     case device::State::ramping:
-      return {"feeling", "Feeling: forces are coming up or going down"};
+      return {"feeling", "Feeling: forces are coming up or going down", Status::Code::ok};
     case device::State::homing:
       return {"ready", "Ready: homing, move the stylus as its maker says"};
     case device::State::idle:
@@ -128,13 +128,10 @@ void Announcer::announce_off() {
 void Announcer::announce_status(const TickRecord& tick) {
   const StateInWords words = state_of_session(tick);
   const ServerCounts counts = server_.counts();
-  const auto code = words.state == "feeling"   ? Status::Code::ok
-                    : words.state == "stopped" ? Status::Code::hardware_failure
-                                               : Status::Code::not_ready;
   const std::string text =
       fmt::format("{}. Clients {}, messages refused {}, passed over {}, replaced {}", words.sentence, counts.clients,
                   counts.refused, counts.passed_over, counts.replaced + counts.outrun);
-  offer("STATUS", program_name, content_of(Status{.code = code, .name = words.state, .text = text}),
+  offer("STATUS", program_name, content_of(Status{.code = words.code, .name = words.state, .text = text}),
         publisher_.stamp_of(tick), true);
 }
 

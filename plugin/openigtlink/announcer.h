@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "plugin/app/live_session.h"
+#include "plugin/openigtlink/contents.h"
 #include "plugin/openigtlink/publisher.h"
 #include "plugin/openigtlink/received.h"
 #include "plugin/openigtlink/shapes.h"
@@ -74,6 +75,7 @@ class Announcer {
 /// "off", "ready", "feeling" or "stopped", and the same as a sentence.
 struct StateInWords {
   std::string state, sentence;
+  Status::Code code = Status::Code::not_ready;
 };
 StateInWords state_of_session(const TickRecord& tick);
 

@@ -192,8 +192,8 @@ std::string name_of_side(const std::string& structure, bool along) {
 }
 
 bool is_of_snap(const modes::Mode& mode, const std::string& structure) {
-  if (mode.type == "surface") return mode.name == name_of_snap(structure);
-  return mode.type == "landmark" &&
+  if (modes::reads_key(mode, modes::Key::tissues)) return mode.name == name_of_snap(structure);
+  return modes::reads_key(mode, modes::Key::landmark) &&
          (mode.name == name_of_side(structure, true) || mode.name == name_of_side(structure, false));
 }
 
