@@ -32,7 +32,8 @@ void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
 SessionController::SessionController(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
   setObjectName(QStringLiteral("palpateSession"));
   model.set_commit([this](const modes::Scene& scene, Pace pace) { commit(scene, pace); });
-  model.set_read([this](const modes::Scene& scene, auto done) { return read(scene, std::move(done)); });
+  model.set_read(
+      [this](const modes::Scene& scene, auto done) { return !expects_scan_ && reader_.read(scene, std::move(done)); });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
   connect(&looks_, &QTimer::timeout, this, [this] { look(); });
   looks_.setTimerType(Qt::PreciseTimer);
@@ -47,12 +48,12 @@ SessionController::~SessionController() {
 }
 
 void SessionController::set_no_scan(const QString& why) {
-  forget_marks();
+  mark_button_.forget();
   why_no_scan_ = why;
   const auto recorded_now = live_.disconnect();
   live_.set_scan(nullptr);
-  simulated_.reset();
-  clutched_ = false;
+  hand_.hold(nullptr);
+  parted_.reset();
   look();
   emit connection_changed();
   tell_recorded(recorded_now);
@@ -61,7 +62,7 @@ void SessionController::set_no_scan(const QString& why) {
 void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
   why_no_scan_.clear();
   expects_scan_ = false;
-  forget_marks();  // they would be of two scans
+  mark_button_.forget();  // they would be of two scans
   QString problem;
   std::optional<RecorderStatus> recorded_now;
   try {
@@ -88,29 +89,9 @@ void SessionController::commit(const modes::Scene& scene, Pace pace) {
   follow_workspace();
 }
 
-/// In the background: neither panel nor servo waits for files.
-bool SessionController::read(const modes::Scene& scene, std::function<void(const QString& error)> done) {
-  if (expects_scan_ || !live_.scan()) return false;
-  try {
-    if (live_.has_read(scene)) return false;
-  } catch (const std::exception&) {
-    return false;  // it is refused
-  }
-  if (held_of_.lock() != live_.scan()) held_.clear();
-  held_of_ = live_.scan();
-  reading_.ask(live_.reading(scene), [this, done = std::move(done)](const auto& read, const QString& error) {
-    if (read) {
-      held_.insert(held_.end(), read->structures.begin(), read->structures.end());
-      live_.offer(PreparedScene(*read));
-    }
-    done(error);
-  });
-  return true;
-}
-
 void SessionController::follow_workspace() {
   if (live_.plan()) before_ = std::exchange(now_, live_.plan()->workspace);
-  if (before_ != now_) hand_mm_.reset();
+  if (before_ != now_) hand_.forget_place();
 }
 
 void SessionController::connect_stylus(const StylusChoice& choice) {
@@ -122,22 +103,20 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
   try {
     const auto stylus =
         make_stylus({.device = choice.device, .firmware = choice.firmware, .settings = choice.settings});
-    simulated_ = std::dynamic_pointer_cast<device::SimulatedStylus>(stylus);
-    clutched_ = false;
+    hand_.hold(std::dynamic_pointer_cast<device::SimulatedStylus>(stylus));
+    parted_.reset();
     look_ = {};  // of a recording, perhaps
-    hand_mm_.reset();
-    buttons_ = 0;
-    forget_marks();
-    next_tick_ = 0;
+    ticks_.restart();
+    mark_button_.forget();
     if (live_.plan()) {
       before_ = now_ = live_.plan()->workspace;
-      if (simulated_ && start_) move_hand(start_(stylus->specification()));  // before the first tick
+      if (hand_.holds() && start_) move_hand(start_(stylus->specification()));  // before the first tick
     }
     live_.connect(stylus, LiveSession::Start::released);
     homing_ = QString::fromUtf8(type_of(choice).homing.data(), static_cast<int>(type_of(choice).homing.size()));
     before_ = now_ = live_.plan()->workspace;
   } catch (const std::exception& error) {
-    simulated_.reset();
+    hand_.hold(nullptr);
     problem = QString::fromUtf8(error.what());
   }
   emit connection_changed();
@@ -145,10 +124,10 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
 }
 
 void SessionController::disconnect_stylus() {
-  forget_marks();
+  mark_button_.forget();
   const auto recorded_now = live_.disconnect();
-  simulated_.reset();
-  clutched_ = false;
+  hand_.hold(nullptr);
+  parted_.reset();
   look();
   emit connection_changed();
   tell_recorded(recorded_now);
@@ -164,7 +143,7 @@ void SessionController::feel() {
     emit told(kept_off_, true);
     return;
   }
-  clutched_ = false;
+  parted_.reset();
   live_.feel();
   emit told({}, false);
 }
@@ -175,7 +154,7 @@ bool SessionController::feels() const {
 }
 
 void SessionController::release() {
-  feels_after_clutch_ = false;
+  if (parted_) parted_->felt = false;
   live_.release();
 }
 
@@ -197,9 +176,9 @@ void SessionController::clear_fault() {
   QString problem;
   try {
     live_.reopen();
-    next_tick_ = 0;
+    ticks_.count_anew();
   } catch (const std::exception& error) {
-    simulated_.reset();
+    hand_.hold(nullptr);
     problem = QString::fromUtf8(error.what());
   }
   look();
@@ -214,11 +193,11 @@ QString SessionController::last_fault() const {
 void SessionController::record(const std::string& file) {
   QString problem;
   try {
-    forget_marks();
-    if (simulated_) move_hand(look_.probe_mm);  // where the new session finds it
+    mark_button_.forget();
+    if (hand_.holds()) move_hand(look_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
-    next_tick_ = 0;
+    ticks_.count_anew();
   } catch (const std::exception& error) {
     problem = QString::fromUtf8(error.what());
   }
@@ -248,13 +227,7 @@ void SessionController::tell_recorded(const std::optional<RecorderStatus>& statu
 }
 
 void SessionController::press_mark() {
-  if (!live_.is_connected() || clutched_) return;
-  letting_mark_go_ = false;
-  live_.press(mark_button);
-}
-
-void SessionController::let_go_mark() {
-  letting_mark_go_ = true;
+  if (live_.is_connected() && !parted_) mark_button_.press();
 }
 
 FeltMark SessionController::mark_here() const {
@@ -269,75 +242,36 @@ FeltMark SessionController::mark_here() const {
   return std::get<FeltMark>(*once.finish());
 }
 
-/// What is being pressed makes nothing.
-void SessionController::forget_marks() {
-  live_.press(0);
-  presses_.drop();
-  letting_mark_go_ = false;
-}
-
-/// A press is in the ticks, as the stylus' own is: what is marked here is what a recording holds.
 void SessionController::follow_marks() {
-  const TickRecord& tick = look_.tick;
-  if (clutched_) {
-    presses_.drop();  // hand and patient are parted
-    return;
-  }
-  const bool is_pressed = (tick.buttons & mark_button) != 0;
-  if (!is_pressed && !presses_.is_down()) return;
-  if (is_pressed && std::exchange(letting_mark_go_, false)) live_.press(0);
-  const modes::Workspace reach = modes::between(before_, now_, tick.change_part);
-  const auto made = presses_.take({.tick = tick,
-                                   .time_s = tick.time_s,
-                                   .proxy_mm = reach.to_patient(vector_of(tick.proxy_m)),
-                                   .shares = look_.shares,
-                                   .scene = live_.scene()});
-  if (made) emit marked(*made);
+  if (parted_) return mark_button_.drop();
+  const auto proxy_mm = [this](const TickRecord& tick) {
+    return modes::between(before_, now_, tick.change_part).to_patient(vector_of(tick.proxy_m));
+  };
+  if (const auto made = mark_button_.follow(look_.tick, look_.shares, live_.scene(), proxy_mm)) emit marked(*made);
 }
 
 void SessionController::clutch() {
-  if (!live_.is_connected() || clutched_) return;
-  forget_marks();
-  clutched_ = true;
-  clutched_at_mm_ = look_.probe_mm;
-  feels_after_clutch_ = feels();
+  if (!live_.is_connected() || parted_) return;
+  mark_button_.forget();
+  parted_ = Parted{.at_mm = look_.probe_mm, .felt = feels()};
   live_.release();
 }
 
 void SessionController::unclutch(const glm::dmat3& rotation) {
-  if (!std::exchange(clutched_, false)) return;
+  const auto parted = std::exchange(parted_, std::nullopt);
+  if (!parted) return;
   const glm::dvec3 hand_m = vector_of(look_.tick.probe_m);
   const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = now_.mm_per_m};
-  const glm::dvec3 center = clutched_at_mm_ - held.to_patient(hand_m);
+  const glm::dvec3 center = parted->at_mm - held.to_patient(hand_m);
   model_.edit(tr("Clutch"), [&](modes::Scene& scene) {
     scene.workspace = {.center_mm = center, .rotation = rotation, .scale = now_.mm_per_m / 1e3, .fit = false};
   });
   before_ = now_;  // nothing is shown on its way: hand and patient were parted
-  if (std::exchange(feels_after_clutch_, false)) feel();
+  if (parted->felt) feel();
 }
 
 bool SessionController::may_remap() const {
-  return !live_.is_connected() || clutched_ || look_.force_n == 0;
-}
-
-void SessionController::move_hand(const glm::dvec3& patient_mm) {
-  letting_go_ = false;
-  hand_mm_ = patient_mm;
-  if (simulated_) simulated_->move_target(now_.to_device(patient_mm));
-}
-
-void SessionController::let_go() {
-  letting_go_ = simulated_ != nullptr;
-  hand_mm_.reset();
-}
-
-/// To the proxy and a little beyond: the arm's own friction keeps a hand that goes no farther inside.
-void SessionController::give_way() {
-  constexpr double nothing_n = 0.02, beyond = 0.5;
-  if (!letting_go_ || !simulated_) return;
-  const glm::dvec3 proxy_m = vector_of(look_.tick.proxy_m);
-  simulated_->move_target(proxy_m + beyond * (proxy_m - vector_of(look_.tick.probe_m)));
-  if (look_.force_n < nothing_n) letting_go_ = false;
+  return !live_.is_connected() || parted_ || look_.force_n == 0;
 }
 
 void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
@@ -350,7 +284,7 @@ void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
 void SessionController::look() {
   const TickRing* const ring = live_.ticks();
   look_.connected = live_.is_connected();
-  look_.clutched = clutched_;
+  look_.clutched = is_clutched();
   look_.kept_off = kept_off_;
   look_.peak_n = 0;
   if (!look_.connected) {
@@ -359,20 +293,12 @@ void SessionController::look() {
     return;
   }
   std::vector<double> ticks;
-  std::uint32_t pressed = 0, let = 0;  // in any tick: a short press counts though this thread was busy
-  const std::uint64_t written = ring->written();
-  next_tick_ = std::max(next_tick_, ring->oldest());
-  for (; next_tick_ < written; ++next_tick_) {
-    look_.shares.clear();
-    if (!ring->read(next_tick_, look_.tick, &look_.shares)) continue;
+  const NewTicks::Buttons buttons = ticks_.read(*ring, look_.tick, look_.shares, [&] {
     look_.fresh = true;
     look_.peak_n = std::max(look_.peak_n, glm::length(vector_of(look_.tick.sent_n)));
     ticks.push_back(tick_us(look_.tick));
-    pressed |= look_.tick.buttons & ~buttons_;
-    let |= buttons_ & ~look_.tick.buttons;
-    buttons_ = look_.tick.buttons;
     follow_marks();
-  }
+  });
   if (!ticks.empty()) look_.tick_us = io::quantile(std::move(ticks), 0.5);
   const TickRecord& tick = look_.tick;
   const bool is_silent = fault_of(tick) == device::Fault::commander_silent;
@@ -380,8 +306,8 @@ void SessionController::look() {
   if (is_silent && look_.held_up.isEmpty()) look_.held_up = slow_.in_words();
   look_.feels = feels();
   look_.workspace = modes::between(before_, now_, tick.change_part);
-  look_.probe_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(tick.probe_m));
-  look_.proxy_mm = clutched_ ? clutched_at_mm_ : look_.workspace.to_patient(vector_of(tick.proxy_m));
+  look_.probe_mm = parted_ ? parted_->at_mm : look_.workspace.to_patient(vector_of(tick.probe_m));
+  look_.proxy_mm = parted_ ? parted_->at_mm : look_.workspace.to_patient(vector_of(tick.proxy_m));
   look_.force_n = glm::length(vector_of(tick.sent_n));
   look_.missed = live_.missed();
   look_.homing = homing_;
@@ -401,8 +327,8 @@ void SessionController::look() {
   look_.held = held ? in_words(*held) : "";
   // On an edge the value is one of neither side: half-way from air to muscle it is fat's.
   if (held && live_.scene().modes[held->mode].structure.empty()) look_.tissue = "between tissues";
-  obey_buttons(pressed, let);
-  give_way();
+  obey_buttons(buttons.pressed, buttons.let);
+  hand_.give_way(tick, look_.force_n);
   emit looked(look_);
 }
 

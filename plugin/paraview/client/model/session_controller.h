@@ -14,13 +14,15 @@
 #include <string>
 #include <vector>
 
-#include "device/simulated/simulated_stylus.h"
 #include "modes/scene/site_map.h"
 #include "modes/scene/workspace.h"
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
-#include "plugin/paraview/client/jobs/job.h"
+#include "plugin/paraview/client/model/mark_button.h"
+#include "plugin/paraview/client/model/mouse_hand.h"
+#include "plugin/paraview/client/model/new_ticks.h"
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/scene_reader.h"
 #include "plugin/paraview/client/model/slow_work.h"
 #include "plugin/recording/marks.h"
 #include "plugin/report/nearest_structure.h"
@@ -105,7 +107,7 @@ class SessionController : public QObject {
 
   /// Presses and releases the mark button from the panel, like the stylus' own button. Does nothing without a stylus.
   void press_mark();
-  void let_go_mark();
+  void let_go_mark() { mark_button_.let_go(); }
   /// The mark that would be made at the last tick.
   FeltMark mark_here() const;
 
@@ -114,7 +116,7 @@ class SessionController : public QObject {
   /// on.
   void clutch();
   void unclutch(const glm::dmat3& rotation);
-  bool is_clutched() const { return clutched_; }
+  bool is_clutched() const { return parted_.has_value(); }
   /// Whether the mapping may change: not while the hand feels something, because it would be thrown.
   bool may_remap() const;
 
@@ -122,15 +124,15 @@ class SessionController : public QObject {
   void show_instead(std::function<SessionStatus()> look) { instead_ = std::move(look); }
 
   // The simulated stylus' hand, for mouse and keyboard.
-  bool has_simulated() const { return simulated_ != nullptr && live_.is_connected(); }
-  void move_hand(const glm::dvec3& patient_mm);
+  bool has_simulated() const { return hand_.holds() && live_.is_connected(); }
+  void move_hand(const glm::dvec3& patient_mm) { hand_.move(patient_mm, now_); }
   /// Where the hand wants to be, mm, patient space: where it was last put, or else where the stylus is.
-  glm::dvec3 hand_mm() const { return hand_mm_.value_or(look_.probe_mm); }
+  glm::dvec3 hand_mm() const { return hand_.place_mm().value_or(look_.probe_mm); }
   /// The simulated hand relaxes until nothing pushes it.
-  void let_go();
+  void let_go() { hand_.let_go(); }
   /// True: the mouse is used for something else, and does not take the stylus.
-  void keep_mouse_off(bool off) { mouse_off_ = off; }
-  bool takes_mouse() const { return has_simulated() && !mouse_off_; }
+  void keep_mouse_off(bool off) { hand_.keep_mouse_off(off); }
+  bool takes_mouse() const { return hand_.takes_mouse() && live_.is_connected(); }
 
  signals:
   /// The stylus' clutch button was released. The stylus views unclutch, because they know how they are turned.
@@ -146,45 +148,38 @@ class SessionController : public QObject {
  private:
   /// Whether the user has turned forces on. The session owns that; a fault takes them away until it is cleared.
   bool feels() const;
-  void give_way();
   void tell_recorded(const std::optional<RecorderStatus>& status);
   void commit(const modes::Scene& scene, Pace pace);
-  bool read(const modes::Scene& scene, std::function<void(const QString& error)> done);
   void follow_workspace();
   void look();
   /// Those that were pressed and those that were let go since the last look.
   void obey_buttons(std::uint32_t pressed, std::uint32_t let);
   void follow_marks();
-  void forget_marks();
 
   SceneModel& model_;
   LiveSession live_;
   QString why_no_scan_;
   QString homing_;
-  std::shared_ptr<device::SimulatedStylus> simulated_;
+  MouseHand hand_;
   modes::Workspace before_, now_;  // of the last two scenes
-  std::uint64_t next_tick_ = 0;
-  std::uint32_t buttons_ = 0;
-  MarkPresses presses_;
-  bool letting_mark_go_ = false;       // once a tick has had it
-  std::optional<glm::dvec3> hand_mm_;  // while the workspace stays and it does not relax
-  bool letting_go_ = false;
-  bool clutched_ = false;
-  bool feels_after_clutch_ = false;
+  NewTicks ticks_;
+  MarkButton mark_button_{live_};
+  /// Hand and patient are parted by the clutch.
+  struct Parted {
+    glm::dvec3 at_mm{0};  ///< where the stylus stays in the patient
+    bool felt = false;    ///< forces come back with the hand
+  };
+  std::optional<Parted> parted_;
   bool expects_scan_ = false;
   QString kept_off_;
   std::function<glm::dvec3(const device::Specification&)> start_;
-  bool mouse_off_ = false;
-  glm::dvec3 clutched_at_mm_{0};
   SessionStatus look_;
   std::shared_ptr<const modes::SiteMap> sites_;
   SlowWork slow_;
   std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, looks_;
-  std::vector<LoadedStructure> held_;  // what scenes of this scan read: undoing finds it again
-  std::weak_ptr<const io::Volume> held_of_;
-  Job reading_;
+  SceneReader reader_{live_};  // last: its thread is to end before the session
 };
 
 }  // namespace palpate::plugin

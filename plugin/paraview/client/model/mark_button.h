@@ -1,0 +1,49 @@
+#pragma once
+
+/// The panel's own mark button: it presses the stylus' button, so that a press is in the ticks, and a recording has it.
+
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "plugin/app/live_session.h"
+#include "plugin/recording/marks.h"
+
+namespace palpate::plugin {
+
+class MarkButton {
+ public:
+  explicit MarkButton(LiveSession& live) : live_(live) {}
+
+  void press() {
+    letting_go_ = false;
+    live_.press(mark_button);
+  }
+  /// Once a tick has had the press.
+  void let_go() { letting_go_ = true; }
+  /// What is being pressed makes nothing.
+  void forget() {
+    live_.press(0);
+    presses_.drop();
+    letting_go_ = false;
+  }
+  /// Hand and patient are parted: what is pressed meanwhile makes nothing.
+  void drop() { presses_.drop(); }
+  /// What a press of this button or of the stylus' own made, if it ended in this tick. `proxy_mm(tick)`: where it was.
+  template <typename ProxyMm>
+  std::optional<MarkMade> follow(const TickRecord& tick, std::span<const PrimitiveRecord> shares,
+                                 const modes::Scene& scene, const ProxyMm& proxy_mm) {
+    const bool is_pressed = (tick.buttons & mark_button) != 0;
+    if (!is_pressed && !presses_.is_down()) return std::nullopt;
+    if (is_pressed && std::exchange(letting_go_, false)) live_.press(0);
+    return presses_.take(
+        {.tick = tick, .time_s = tick.time_s, .proxy_mm = proxy_mm(tick), .shares = shares, .scene = scene});
+  }
+
+ private:
+  LiveSession& live_;
+  MarkPresses presses_;
+  bool letting_go_ = false;
+};
+
+}  // namespace palpate::plugin

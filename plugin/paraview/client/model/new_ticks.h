@@ -1,0 +1,46 @@
+#pragma once
+
+/// The ticks that were written since the last look, one after the other, and the buttons that changed in any of them:
+/// a short press counts, though the thread that looks was busy.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "plugin/session/tick_ring.h"
+
+namespace palpate::plugin {
+
+class NewTicks {
+ public:
+  struct Buttons {
+    std::uint32_t pressed = 0, let = 0;
+  };
+
+  /// Another session, whose first tick is the next.
+  void restart() { *this = {}; }
+  /// The same session begins anew: its ticks are counted from 0 again.
+  void count_anew() { next_ = 0; }
+  /// Calls `each()` with every new tick in `tick` and its primitives in `shares`.
+  template <typename Each>
+  Buttons read(const TickRing& ring, TickRecord& tick, std::vector<PrimitiveRecord>& shares, const Each& each) {
+    Buttons changed;
+    const std::uint64_t written = ring.written();
+    next_ = std::max(next_, ring.oldest());
+    for (; next_ < written; ++next_) {
+      shares.clear();
+      if (!ring.read(next_, tick, &shares)) continue;
+      changed.pressed |= tick.buttons & ~buttons_;
+      changed.let |= buttons_ & ~tick.buttons;
+      buttons_ = tick.buttons;
+      each();
+    }
+    return changed;
+  }
+
+ private:
+  std::uint64_t next_ = 0;
+  std::uint32_t buttons_ = 0;
+};
+
+}  // namespace palpate::plugin

@@ -1,0 +1,27 @@
+#include "plugin/paraview/client/model/scene_reader.h"
+
+#include <exception>
+#include <utility>
+
+namespace palpate::plugin {
+
+bool SceneReader::read(const modes::Scene& scene, std::function<void(const QString& error)> done) {
+  if (!live_.scan()) return false;
+  try {
+    if (live_.has_read(scene)) return false;
+  } catch (const std::exception&) {
+    return false;  // it is refused
+  }
+  if (held_of_.lock() != live_.scan()) held_.clear();
+  held_of_ = live_.scan();
+  job_.ask(live_.reading(scene), [this, done = std::move(done)](const auto& read, const QString& error) {
+    if (read) {
+      held_.insert(held_.end(), read->structures.begin(), read->structures.end());
+      live_.offer(PreparedScene(*read));
+    }
+    done(error);
+  });
+  return true;
+}
+
+}  // namespace palpate::plugin

@@ -1,0 +1,32 @@
+#pragma once
+
+/// Reads the structures that a scene needs in the background, and keeps them while their scan is felt: undoing finds
+/// them again.
+
+#include <QString>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "plugin/app/live_session.h"
+#include "plugin/paraview/client/jobs/job.h"
+
+namespace palpate::plugin {
+
+class SceneReader {
+ public:
+  explicit SceneReader(LiveSession& live) : live_(live) {}
+
+  /// Offers to the session what the scene needs, and calls `done` once, with an error if it cannot be read. False:
+  /// there is nothing to wait for. Another scene takes the place of the one that is being read for.
+  bool read(const modes::Scene& scene, std::function<void(const QString& error)> done);
+
+ private:
+  LiveSession& live_;
+  std::vector<LoadedStructure> held_;
+  std::weak_ptr<const io::Volume> held_of_;
+  Job job_;
+};
+
+}  // namespace palpate::plugin
