@@ -5,7 +5,7 @@ import sys
 import types
 import unittest
 
-import palpate_test as rig  # puts the module's folder on the path
+import stand_ins as rig  # puts the module's folder on the path
 
 
 class Widget:

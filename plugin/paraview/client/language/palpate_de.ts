@@ -2,7 +2,54 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
+    <name>ArchiveSearch</name>
+    <message>
+        <source>Patient</source>
+        <translation>Patient</translation>
+    </message>
+    <message>
+        <source>Part of the name, family name first</source>
+        <translation>Teil des Namens, Nachname zuerst</translation>
+    </message>
+    <message>
+        <source>Patient&apos;s id</source>
+        <translation>Patienten-ID</translation>
+    </message>
+    <message>
+        <source>The whole id; * stands for anything</source>
+        <translation>Die ganze ID; * steht für Beliebiges</translation>
+    </message>
+    <message>
+        <source>Description</source>
+        <translation>Beschreibung</translation>
+    </message>
+    <message>
+        <source>Part of the study&apos;s description</source>
+        <translation>Teil der Studienbeschreibung</translation>
+    </message>
+    <message>
+        <source>Date</source>
+        <translation>Datum</translation>
+    </message>
+    <message>
+        <source>Of the study: 2026, 2026-01, 2026-01-04, or a span 20260101-20260131</source>
+        <translation>Der Studie: 2026, 2026-01, 2026-01-04 oder ein Zeitraum 20260101-20260131</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>Modality</source>
+        <translation>Modalität</translation>
+    </message>
+</context>
+<context>
     <name>ArchiveTab</name>
+    <message>
+        <source>Date</source>
+        <translation>Datum</translation>
+    </message>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
@@ -46,46 +93,6 @@
     <message>
         <source>Enters an archive, or changes the one of that name</source>
         <translation>Trägt ein Archiv ein oder ändert das mit diesem Namen</translation>
-    </message>
-    <message>
-        <source>Patient</source>
-        <translation>Patient</translation>
-    </message>
-    <message>
-        <source>Part of the name, family name first</source>
-        <translation>Teil des Namens, Nachname zuerst</translation>
-    </message>
-    <message>
-        <source>Patient&apos;s id</source>
-        <translation>Patienten-ID</translation>
-    </message>
-    <message>
-        <source>The whole id; * stands for anything</source>
-        <translation>Die ganze ID; * steht für Beliebiges</translation>
-    </message>
-    <message>
-        <source>Description</source>
-        <translation>Beschreibung</translation>
-    </message>
-    <message>
-        <source>Part of the study&apos;s description</source>
-        <translation>Teil der Studienbeschreibung</translation>
-    </message>
-    <message>
-        <source>Date</source>
-        <translation>Datum</translation>
-    </message>
-    <message>
-        <source>Of the study: 2026, 2026-01, 2026-01-04, or a span 20260101-20260131</source>
-        <translation>Der Studie: 2026, 2026-01, 2026-01-04 oder ein Zeitraum 20260101-20260131</translation>
-    </message>
-    <message>
-        <source>All</source>
-        <translation>Alle</translation>
-    </message>
-    <message>
-        <source>Modality</source>
-        <translation>Modalität</translation>
     </message>
     <message>
         <source>Fetch and open</source>
@@ -1455,6 +1462,13 @@
     </message>
 </context>
 <context>
+    <name>RecordingComparison</name>
+    <message>
+        <source>Blue: %1, orange: %2. %3</source>
+        <translation>Blau: %1, orange: %2. %3</translation>
+    </message>
+</context>
+<context>
     <name>RecordingsSection</name>
     <message>
         <source>Open recording</source>
@@ -1503,10 +1517,6 @@
     <message>
         <source>Disconnect the stylus to play: the views show what it feels</source>
         <translation>Zum Abspielen den Stift trennen: Die Ansichten zeigen, was er fühlt</translation>
-    </message>
-    <message>
-        <source>Blue: %1, orange: %2. %3</source>
-        <translation>Blau: %1, orange: %2. %3</translation>
     </message>
 </context>
 <context>

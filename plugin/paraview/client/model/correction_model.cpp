@@ -140,16 +140,14 @@ void CorrectionModel::reset() {
   held_in_.reset();
   freed_ = false;
   slice_kept_.stop();
-  stroke_.clear();
+  stroke_ = {};
   traces_.clear();
   ending_ = false;
   edits_.clear();
   taken_back_.clear();
   shows_before_ = false;
   is_in_scene_ = false;
-  places_.reset();
-  left_.clear();
-  at_.reset();
+  doubtful_.clear();
   emit stroke_changed();
   emit places_changed();
   emit changed();
@@ -157,9 +155,7 @@ void CorrectionModel::reset() {
 
 void CorrectionModel::look_again() {
   if (!is_in_scene_) return;
-  places_.reset();
-  left_.clear();
-  at_.reset();
+  doubtful_.clear();
   find_places();
   emit places_changed();
   emit changed();
@@ -168,9 +164,7 @@ void CorrectionModel::look_again() {
 void CorrectionModel::find_places() {
   if (!find_ || !structure_) return;
   find_(&*structure_, [this](io::DoubtfulPlaces found) {
-    places_ = std::move(found);
-    left_.clear();
-    at_.reset();
+    doubtful_.take(std::move(found));
     emit places_changed();
   });
 }
@@ -216,22 +210,21 @@ void CorrectionModel::set_snap_n(double newtons) {
 
 void CorrectionModel::press(const glm::dvec3& place, Over over) {
   if (!structure_) return;
-  stroke_ = {place};
-  stroke_over_ = over;
+  stroke_ = {.places = {place}, .over = over};
   emit stroke_changed();
 }
 
 void CorrectionModel::move(const glm::dvec3& place) {
-  if (stroke_.empty() || glm::distance(stroke_.back(), place) < least_step_mm) return;
-  stroke_.push_back(place);
+  if (stroke().empty() || glm::distance(stroke().back(), place) < least_step_mm) return;
+  stroke_.places.push_back(place);
   emit stroke_changed();
 }
 
 /// A click alone, as that which gives a view the keyboard, traces nothing.
 void CorrectionModel::let_go() {
-  if (stroke_.empty()) return;
-  std::vector<io::Vec3> drawn = std::exchange(stroke_, {});
-  if (tool_ != Tool::trace || drawn.size() > 1) draw(std::move(drawn), stroke_over_, false);
+  if (stroke().empty()) return;
+  Trace drawn{.places = std::exchange(stroke_.places, {}), .over = stroke_.over};
+  if (tool_ != Tool::trace || drawn.places.size() > 1) draw(std::move(drawn.places), drawn.over, false);
   emit stroke_changed();
 }
 
@@ -330,25 +323,13 @@ void CorrectionModel::show_before(bool before) {
   if (std::exchange(shows_before_, before) != before) emit changed();
 }
 
-/// It is corrected where the outline that is felt has left it by a good part of what it was off. An edit that was held
-/// back there, or was made elsewhere, corrects nothing.
-CorrectionModel::Fate CorrectionModel::fate(std::size_t place) const {
-  constexpr double least_mm = 0.3, least_part = 0.5;
-  const io::DoubtfulPlace& one = places_->places[place];
-  const double off_mm = std::abs(outline_ ? outline_(one.position_mm).value_or(0) : 0);
-  if (off_mm > std::max(least_mm, least_part * std::abs(one.mean_mm))) return Fate::corrected;
-  return left_.contains(place) ? Fate::left : Fate::doubtful;
-}
-
 void CorrectionModel::leave(std::size_t place) {
-  left_.insert(place);
+  doubtful_.leave(place);
   emit places_changed();
 }
 
 void CorrectionModel::go_to(std::size_t place) {
-  if (!places_ || place >= places_->places.size()) return;
-  at_ = place;
-  emit place_wanted(places_->places[place]);
+  if (const io::DoubtfulPlace* const one = doubtful_.go_to(place)) emit place_wanted(*one);
 }
 
 }  // namespace palpate::plugin

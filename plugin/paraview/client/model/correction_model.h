@@ -10,11 +10,11 @@
 #include <deque>
 #include <functional>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "io/structures/doubtful_places.h"
 #include "io/structures/structure.h"
+#include "plugin/paraview/client/model/doubtful_list.h"
 #include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/structures/drawn_structure.h"
 #include "plugin/structures/edges_beside.h"
@@ -40,15 +40,12 @@ class CorrectionModel : public QObject {
   using LookBeside =
       std::function<void(std::vector<io::Vec3> places, double within_mm, std::function<void(const Edges&)> done)>;
 
-  /// The distance of a place from the outline as it is felt now, mm; none while it is read or made.
-  using Outline = std::function<std::optional<double>(const io::Vec3& place)>;
-
   explicit CorrectionModel(SceneModel& scene, QObject* parent = nullptr);
   ~CorrectionModel() override;
   void set_press(Press press) { press_ = std::move(press); }
   void set_find(Find find) { find_ = std::move(find); }
   void set_look_beside(LookBeside look) { look_beside_ = std::move(look); }
-  void set_outline(Outline outline) { outline_ = std::move(outline); }
+  void set_outline(DoubtfulList::Outline outline) { doubtful_.set_outline(std::move(outline)); }
   /// The outline that is felt is another one now.
   void outline_changed() { emit places_changed(); }
   /// The scan is another frame now: doubtful places are looked for there.
@@ -88,8 +85,8 @@ class CorrectionModel : public QObject {
   void press(const glm::dvec3& place, Over over = Over::slice);
   void move(const glm::dvec3& place);
   void let_go();
-  const std::vector<io::Vec3>& stroke() const { return stroke_; }
-  Over stroke_over() const { return stroke_over_; }
+  const std::vector<io::Vec3>& stroke() const { return stroke_.places; }
+  Over stroke_over() const { return stroke_.over; }
   /// The same at once: a path of the stylus, or one place. The points of a trace carry the +- of the scan's edge there.
   void draw_felt(std::vector<io::Vec3> places);
   /// The edge moves to the scan's own around a place.
@@ -110,15 +107,9 @@ class CorrectionModel : public QObject {
   bool shows_before() const { return shows_before_; }
   void show_before(bool before);
 
-  /// The most doubtful first; none while they are looked for.
-  const std::optional<io::DoubtfulPlaces>& places() const { return places_; }
-  /// What has become of a place in the list.
-  enum class Fate { doubtful, corrected, left };
-  Fate fate(std::size_t place) const;
-  /// The user has looked at it: it is right as it is.
+  const DoubtfulList& doubtful() const { return doubtful_; }
+  /// As DoubtfulList::leave() and go_to().
   void leave(std::size_t place);
-  /// The one that was gone to last.
-  std::optional<std::size_t> at() const { return at_; }
   void go_to(std::size_t place);
 
  signals:
@@ -130,7 +121,6 @@ class CorrectionModel : public QObject {
   void nothing_traced();
 
  private:
-  /// A trace whose places are looked at before it becomes an edit.
   struct Trace {
     std::vector<io::Vec3> places;
     Over over = Over::slice;
@@ -152,25 +142,21 @@ class CorrectionModel : public QObject {
   Press press_;
   Find find_;
   LookBeside look_beside_;
-  Outline outline_;
   std::optional<io::Structure> structure_;
   OutlineEdges edges_of_scan_;
   Tool tool_ = Tool::trace;
   double radius_mm_ = 3, snap_n_ = 0.8;
   std::optional<HeldPlane> held_in_;  // as the scene had it last, but while it is freed
   bool freed_ = false;
-  QTimer slice_kept_;  // once the slice stays
-  std::vector<io::Vec3> stroke_;
-  Over stroke_over_ = Over::slice;
-  std::deque<Trace> traces_;          // the first of them is being looked at
+  QTimer slice_kept_;                 // once the slice stays
+  Trace stroke_;                      // that is being drawn
+  std::deque<Trace> traces_;          // looked at before they become edits: now the first of them
   bool ending_ = false;               // once they are edits
   std::vector<io::Edit> edits_;       // as the scene had them last
   std::vector<io::Edit> taken_back_;  // the last one first to come again
   bool shows_before_ = false;
   bool is_in_scene_ = false;
-  std::optional<io::DoubtfulPlaces> places_;
-  std::set<std::size_t> left_;
-  std::optional<std::size_t> at_;
+  DoubtfulList doubtful_;
 };
 
 }  // namespace palpate::plugin

@@ -182,6 +182,14 @@ void SceneModel::edit(const QString& what, const Change& change, const Told& tol
   put({.kind = Step::Kind::edit, .what = what, .change = change, .told = told, .text = {}});
 }
 
+void SceneModel::edit_mode(const QString& what, std::size_t mode, std::function<void(modes::Mode&)> change,
+                           const Told& told) {
+  const auto of_scene = [mode, change = std::move(change)](modes::Scene& scene) {
+    if (mode < scene.modes.size()) change(scene.modes[mode]);
+  };
+  edit(what, of_scene, told);
+}
+
 void SceneModel::drag(const Change& change, const Told& told) {
   put({.kind = Step::Kind::drag, .what = {}, .change = change, .told = told, .text = {}});
 }

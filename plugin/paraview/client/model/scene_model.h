@@ -23,6 +23,7 @@ class SceneModel : public QObject {
   Q_OBJECT
 
  public:
+  /// It may be done after others, and more than once: it holds what it needs.
   using Change = std::function<void(modes::Scene&)>;
   /// Lets the stylus take a scene over, or throws with the reason why it cannot be felt.
   using Commit = std::function<void(const modes::Scene&, Pace)>;
@@ -71,6 +72,9 @@ class SceneModel : public QObject {
   /// was. The reason goes to `told`, which shows it beside what was pressed; without it, refused() gives it. A change
   /// is made of the scene as it is when it is done: those before it are part of it.
   void edit(const QString& what, const Change& change, const Told& told = {});
+  /// The same of one mode, if the scene still has it when the change is done.
+  void edit_mode(const QString& what, std::size_t mode, std::function<void(modes::Mode&)> change,
+                 const Told& told = {});
   /// A change in progress, such as dragging a node. It is felt at once; of those that wait only the newest is done.
   /// Together with the finish_drag() that ends it, it is one step.
   void drag(const Change& change, const Told& told = {});

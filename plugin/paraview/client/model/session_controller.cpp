@@ -73,7 +73,7 @@ void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const
     live_.set_scan(nullptr);
     problem = QString::fromUtf8(error.what());
   }
-  if (live_.plan()) before_ = now_ = live_.plan()->workspace;
+  if (live_.plan()) workspace_.set(live_.plan()->workspace);
   emit connection_changed();
   tell_recorded(recorded_now);
   if (!problem.isEmpty()) emit told(problem, true);
@@ -90,8 +90,7 @@ void SessionController::commit(const modes::Scene& scene, Pace pace) {
 }
 
 void SessionController::follow_workspace() {
-  if (live_.plan()) before_ = std::exchange(now_, live_.plan()->workspace);
-  if (before_ != now_) hand_.forget_place();
+  if (live_.plan() && workspace_.change_to(live_.plan()->workspace)) hand_.forget_place();
 }
 
 void SessionController::connect_stylus(const StylusChoice& choice) {
@@ -109,12 +108,12 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
     ticks_.restart();
     mark_button_.forget();
     if (live_.plan()) {
-      before_ = now_ = live_.plan()->workspace;
+      workspace_.set(live_.plan()->workspace);
       if (hand_.holds() && start_) move_hand(start_(stylus->specification()));  // before the first tick
     }
     live_.connect(stylus, LiveSession::Start::released);
     homing_ = QString::fromUtf8(type_of(choice).homing.data(), static_cast<int>(type_of(choice).homing.size()));
-    before_ = now_ = live_.plan()->workspace;
+    workspace_.set(live_.plan()->workspace);
   } catch (const std::exception& error) {
     hand_.hold(nullptr);
     problem = QString::fromUtf8(error.what());
@@ -245,7 +244,7 @@ FeltMark SessionController::mark_here() const {
 void SessionController::follow_marks() {
   if (parted_) return mark_button_.drop();
   const auto proxy_mm = [this](const TickRecord& tick) {
-    return modes::between(before_, now_, tick.change_part).to_patient(vector_of(tick.proxy_m));
+    return workspace_.at(tick.change_part).to_patient(vector_of(tick.proxy_m));
   };
   if (const auto made = mark_button_.follow(look_.tick, look_.shares, live_.scene(), proxy_mm)) emit marked(*made);
 }
@@ -261,12 +260,12 @@ void SessionController::unclutch(const glm::dmat3& rotation) {
   const auto parted = std::exchange(parted_, std::nullopt);
   if (!parted) return;
   const glm::dvec3 hand_m = vector_of(look_.tick.probe_m);
-  const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = now_.mm_per_m};
+  const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = workspace_.now().mm_per_m};
   const glm::dvec3 center = parted->at_mm - held.to_patient(hand_m);
-  model_.edit(tr("Clutch"), [&](modes::Scene& scene) {
-    scene.workspace = {.center_mm = center, .rotation = rotation, .scale = now_.mm_per_m / 1e3, .fit = false};
-  });
-  before_ = now_;  // nothing is shown on its way: hand and patient were parted
+  const modes::WorkspaceSettings settings{
+      .center_mm = center, .rotation = rotation, .scale = workspace_.now().mm_per_m / 1e3, .fit = false};
+  model_.edit(tr("Clutch"), [settings](modes::Scene& scene) { scene.workspace = settings; });
+  workspace_.skip_change();  // hand and patient were parted
   if (parted->felt) feel();
 }
 
@@ -305,7 +304,7 @@ void SessionController::look() {
   if (!is_silent) look_.held_up.clear();
   if (is_silent && look_.held_up.isEmpty()) look_.held_up = slow_.in_words();
   look_.feels = feels();
-  look_.workspace = modes::between(before_, now_, tick.change_part);
+  look_.workspace = workspace_.at(tick.change_part);
   look_.probe_mm = parted_ ? parted_->at_mm : look_.workspace.to_patient(vector_of(tick.probe_m));
   look_.proxy_mm = parted_ ? parted_->at_mm : look_.workspace.to_patient(vector_of(tick.proxy_m));
   look_.force_n = glm::length(vector_of(tick.sent_n));

@@ -18,6 +18,7 @@
 #include "modes/scene/workspace.h"
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
+#include "plugin/paraview/client/model/felt_workspace.h"
 #include "plugin/paraview/client/model/mark_button.h"
 #include "plugin/paraview/client/model/mouse_hand.h"
 #include "plugin/paraview/client/model/new_ticks.h"
@@ -125,7 +126,7 @@ class SessionController : public QObject {
 
   // The simulated stylus' hand, for mouse and keyboard.
   bool has_simulated() const { return hand_.holds() && live_.is_connected(); }
-  void move_hand(const glm::dvec3& patient_mm) { hand_.move(patient_mm, now_); }
+  void move_hand(const glm::dvec3& patient_mm) { hand_.move(patient_mm, workspace_.now()); }
   /// Where the hand wants to be, mm, patient space: where it was last put, or else where the stylus is.
   glm::dvec3 hand_mm() const { return hand_.place_mm().value_or(look_.probe_mm); }
   /// The simulated hand relaxes until nothing pushes it.
@@ -161,7 +162,7 @@ class SessionController : public QObject {
   QString why_no_scan_;
   QString homing_;
   MouseHand hand_;
-  modes::Workspace before_, now_;  // of the last two scenes
+  FeltWorkspace workspace_;
   NewTicks ticks_;
   MarkButton mark_button_{live_};
   /// Hand and patient are parted by the clutch.

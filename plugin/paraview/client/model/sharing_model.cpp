@@ -4,6 +4,7 @@
 #include <exception>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -105,10 +106,11 @@ void SharingModel::send_marks() {
 
 void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& prepared) {
   touching_.offer(prepared);
-  QString refused;
+  const auto refused = std::make_shared<QString>();
   scene_.edit(
-      tr("Scene from 3D Slicer"), [&](modes::Scene& now) { now = scene; }, [&](const QString& why) { refused = why; });
-  if (!refused.isEmpty()) throw std::runtime_error(refused.toStdString());
+      tr("Scene from 3D Slicer"), [scene](modes::Scene& now) { now = scene; },
+      [refused](const QString& why) { *refused = why; });
+  if (!refused->isEmpty()) throw std::runtime_error(refused->toStdString());
 }
 
 void SharingModel::take_marks(const std::vector<igtl::Point>& points) {

@@ -10,6 +10,7 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -59,17 +60,19 @@ BoundaryRow::BoundaryRow(SceneModel& model, std::size_t mode, int row, QWidget& 
 
 /// The way back is the same boundary.
 void BoundaryRow::edit(const QString& what, const std::function<void(modes::Mode&)>& change) {
-  model_.edit(what, [&](modes::Scene& scene) {
-    change(scene.modes[mode_]);
-    if (back_) change(scene.modes[*back_]);
+  model_.edit(what, [change, mode = mode_, back = back_](modes::Scene& scene) {
+    if (std::max(mode, back.value_or(0)) >= scene.modes.size()) return;  // others were removed before
+    change(scene.modes[mode]);
+    if (back) change(scene.modes[*back]);
   });
 }
 
 void BoundaryRow::set_felt(const QString& what, bool felt) {
   const int direction = direction_ ? direction_->currentIndex() : in;
-  model_.edit(what, [&](modes::Scene& scene) {
-    scene.modes[mode_].enabled = felt && direction != out;
-    if (back_) scene.modes[*back_].enabled = felt && direction != in;
+  model_.edit(what, [felt, direction, mode = mode_, back = back_](modes::Scene& scene) {
+    if (std::max(mode, back.value_or(0)) >= scene.modes.size()) return;
+    scene.modes[mode].enabled = felt && direction != out;
+    if (back) scene.modes[*back].enabled = felt && direction != in;
   });
 }
 
@@ -95,7 +98,7 @@ void BoundaryRow::add_switch(QWidget& parent, QGridLayout& grid, int row) {
     const QString name = name_of(model_.scene(), mode_);
     const QColor chosen = QColorDialog::getColor(color_of(of_scene()), color_, name, QColorDialog::DontUseNativeDialog);
     if (!chosen.isValid()) return;
-    edit(tr("Color %1").arg(name), [&](modes::Mode& mode) { mode.color = chosen.name().toStdString(); });
+    edit(tr("Color %1").arg(name), [chosen](modes::Mode& mode) { mode.color = chosen.name().toStdString(); });
   });
   grid.addWidget(color_, row, 1);
 }
@@ -108,9 +111,10 @@ void BoundaryRow::add_name(QWidget& parent, QGridLayout& grid, int row) {
     const QString was = name_of(model_.scene(), mode_);
     if (name_->text() == was) return;
     const std::string name = name_->text().toStdString();
-    model_.edit(tr("Rename %1").arg(was), [&](modes::Scene& scene) {
-      scene.modes[mode_].name = name;
-      if (back_ && !name.empty()) scene.modes[*back_].name = modes::way_back_name(name);
+    model_.edit(tr("Rename %1").arg(was), [name, mode = mode_, back = back_](modes::Scene& scene) {
+      if (std::max(mode, back.value_or(0)) >= scene.modes.size()) return;
+      scene.modes[mode].name = name;
+      if (back && !name.empty()) scene.modes[*back].name = modes::way_back_name(name);
     });
   });
   grid.addWidget(name_, row, name_column);
@@ -139,7 +143,7 @@ void BoundaryRow::add_strength(QWidget& parent, QGridLayout& grid, int row) {
   strength_->setToolTip(tr("The force that it resists with before the stylus goes through"));
   connect(strength_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double newtons) {
     edit(tr("Strength of %1").arg(name_of(model_.scene(), mode_)),
-         [&](modes::Mode& mode) { scale_strength(mode, newtons); });
+         [newtons](modes::Mode& mode) { scale_strength(mode, newtons); });
   });
   grid.addWidget(strength_, row, name_column + 2);
   alike_ = new QLabel(QStringLiteral("≈"), &parent);

@@ -83,13 +83,15 @@ QWidget* CorrectBox::build_tools() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(3);
   auto* const places = new QHBoxLayout;
-  take_ = add_tool_button(*places, *this, "palpateTakeScanEdge", tr("Take the scan's edge"),
-                          tr("Moves the outline to the scan's own edge at this place"), [this] {
-                            if (model_.at()) model_.take_scan_edge(model_.places()->places[*model_.at()].position_mm);
-                          });
+  take_ = add_tool_button(
+      *places, *this, "palpateTakeScanEdge", tr("Take the scan's edge"),
+      tr("Moves the outline to the scan's own edge at this place"), [this] {
+        if (model_.doubtful().at())
+          model_.take_scan_edge(model_.doubtful().places()->places[*model_.doubtful().at()].position_mm);
+      });
   leave_ = add_tool_button(*places, *this, "palpateLeavePlace", tr("Leave it"),
                            tr("The outline is correct at this place"), [this] {
-                             if (model_.at()) model_.leave(*model_.at());
+                             if (model_.doubtful().at()) model_.leave(*model_.doubtful().at());
                            });
   places->addStretch(1);
   rows->addLayout(places);
@@ -196,29 +198,30 @@ void CorrectBox::follow() {
   const bool goes_out = model_.is_edited() && !model_.is_tracing() && whole_ && !out_->is_busy();
   save_->setEnabled(goes_out);
   send_->setEnabled(goes_out);
-  take_->setEnabled(model_.at() && model_.places()->places[*model_.at()].kind == io::DoubtKind::edge);
-  leave_->setEnabled(model_.at().has_value());
+  take_->setEnabled(model_.doubtful().at() &&
+                    model_.doubtful().places()->places[*model_.doubtful().at()].kind == io::DoubtKind::edge);
+  leave_->setEnabled(model_.doubtful().at().has_value());
 }
 
 void CorrectBox::show_place(QTreeWidgetItem& item, std::size_t place) const {
-  const io::DoubtfulPlace& shown = model_.places()->places[place];
+  const io::DoubtfulPlace& shown = model_.doubtful().places()->places[place];
   constexpr double mm2 = 100;
   item.setText(0, tr("%1 cm²").arg(shown.area_mm2 / mm2, 0, 'f', 1));
-  const CorrectionModel::Fate fate = model_.fate(place);
+  const DoubtfulList::Fate fate = model_.doubtful().fate(place);
   const QString doubt = doubt_in_words(shown);
-  item.setText(1, fate == CorrectionModel::Fate::corrected ? tr("corrected: %1").arg(doubt)
-                  : fate == CorrectionModel::Fate::left    ? tr("left: %1").arg(doubt)
-                                                           : doubt);
+  item.setText(1, fate == DoubtfulList::Fate::corrected ? tr("corrected: %1").arg(doubt)
+                  : fate == DoubtfulList::Fate::left    ? tr("left: %1").arg(doubt)
+                                                        : doubt);
   item.setToolTip(1, item.text(1));
   for (const int part : {0, 1}) {
     QFont font = item.font(part);
-    font.setStrikeOut(fate != CorrectionModel::Fate::doubtful);
+    font.setStrikeOut(fate != DoubtfulList::Fate::doubtful);
     item.setFont(part, font);
   }
 }
 
 void CorrectBox::list_places() {
-  const std::size_t count = model_.places() ? model_.places()->places.size() : 0;
+  const std::size_t count = model_.doubtful().places() ? model_.doubtful().places()->places.size() : 0;
   while (places_->topLevelItemCount() > static_cast<int>(count)) {
     delete places_->takeTopLevelItem(places_->topLevelItemCount() - 1);
   }
@@ -233,8 +236,8 @@ void CorrectBox::list_places() {
 
 QString CorrectBox::note_of_places() const {
   if (looking_ >= 0) return tr("Looking for doubtful places, %1 %").arg(std::lround(100 * looking_));
-  if (!model_.places()) return {};
-  const std::size_t count = model_.places()->places.size();
+  if (!model_.doubtful().places()) return {};
+  const std::size_t count = model_.doubtful().places()->places.size();
   if (count == 0) return tr("No doubtful place was found.");
   return count == 1 ? tr("1 doubtful place") : tr("%1 doubtful places").arg(count);
 }

@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QPointer>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -34,6 +35,14 @@ const std::vector<Preset>& presets() {
       {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Steep edges only"), {{0.35, 0}, {0.5, 1}}},
       {QT_TRANSLATE_NOOP("palpate::plugin::CurvesSection", "Everywhere the same"), {{0, 1}}}};
   return all;
+}
+
+modes::Gate* gate_of(modes::Scene& scene, std::size_t mode) {
+  if (mode >= scene.modes.size()) return nullptr;
+  auto& gates = scene.modes[mode].gates;
+  const auto of_value =
+      std::find_if(gates.begin(), gates.end(), [](const modes::Gate& gate) { return gate.of == modes::Datum::value; });
+  return of_value == gates.end() ? nullptr : &*of_value;
 }
 
 }  // namespace
@@ -72,10 +81,10 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
   column->addWidget(presets_);
   const auto connect_editor = [this](CurveEditor* editor, auto put) {
     connect(editor, &CurveEditor::dragged, this, [this, editor, put] {
-      editing_ = true;
-      model_.drag([&](modes::Scene& scene) { put(scene, editor->curve()); },
-                  [this](const QString& why) { show_message(*message_, why, true); });
-      editing_ = false;
+      model_.drag([of = mode(), curve = editor->curve(), put](modes::Scene& scene) { put(scene, of, curve); },
+                  [alive = QPointer(this)](const QString& why) {
+                    if (alive) show_message(*alive->message_, why, true);
+                  });
     });
     connect(editor, &CurveEditor::finished, this, [this] {
       if (QGuiApplication::mouseButtons() == Qt::NoButton) profile_->rest();
@@ -85,14 +94,14 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
       if (message_->isVisibleTo(this)) show_mode();  // what was refused goes back to what is felt
     });
   };
-  connect_editor(strength_, [this](modes::Scene& scene, const modes::TransferFunction& curve) {
-    if (mode() < scene.modes.size()) scene.modes[mode()].strength_n = curve;
+  connect_editor(strength_, [](modes::Scene& scene, std::size_t of, const modes::TransferFunction& curve) {
+    if (of < scene.modes.size()) scene.modes[of].strength_n = curve;
   });
-  connect_editor(gate_, [this](modes::Scene& scene, const modes::TransferFunction& curve) {
-    if (modes::Gate* const gate = gate_of(scene)) gate->factor = curve;
+  connect_editor(gate_, [](modes::Scene& scene, std::size_t of, const modes::TransferFunction& curve) {
+    if (modes::Gate* const gate = gate_of(scene, of)) gate->factor = curve;
   });
-  connect(&model, &SceneModel::changed, this, [this](Pace) {
-    if (editing_) return;
+  connect(&model, &SceneModel::changed, this, [this](Pace pace) {
+    if (pace == Pace::dragged) return;  // it is this curve's
     message_->hide();
     list_modes();
   });
@@ -148,14 +157,6 @@ std::size_t CurvesSection::mode() const {
   return modes_->currentIndex() < 0 ? modes::Scene::most_modes : static_cast<std::size_t>(modes_->currentIndex());
 }
 
-modes::Gate* CurvesSection::gate_of(modes::Scene& scene) const {
-  if (mode() >= scene.modes.size()) return nullptr;
-  auto& gates = scene.modes[mode()].gates;
-  const auto of_value =
-      std::find_if(gates.begin(), gates.end(), [](const modes::Gate& gate) { return gate.of == modes::Datum::value; });
-  return of_value == gates.end() ? nullptr : &*of_value;
-}
-
 void CurvesSection::list_modes() {
   QStringList names;
   for (std::size_t n = 0; n < model_.scene().modes.size(); ++n) {
@@ -177,7 +178,7 @@ void CurvesSection::show_mode() {
   const bool any = study_ && mode() < scene.modes.size();
   strength_->setEnabled(any);
   presets_->setEnabled(any);
-  const modes::Gate* const gate = any ? gate_of(scene) : nullptr;
+  const modes::Gate* const gate = any ? gate_of(scene, mode()) : nullptr;
   gate_->setVisible(gate != nullptr);
   if (!any) return;
   const modes::Mode& shown = scene.modes[mode()];
@@ -197,16 +198,15 @@ void CurvesSection::use_preset(int index) {
   presets_->setCurrentIndex(0);
   if (index <= 0 || !study_ || mode() >= model_.scene().modes.size()) return;
   const Preset& preset = presets()[static_cast<std::size_t>(index - 1)];
-  const auto shape = [&](modes::Scene& scene) {
-    modes::Mode& changed = scene.modes[mode()];
-    const io::Bins& bins = counts_of(changed.strength_of).bins;
+  const auto shape = [&preset, bins = counts_of(model_.scene().modes[mode()].strength_of).bins](modes::Mode& changed) {
     const double strongest = changed.strength_n.maximum() > 0 ? changed.strength_n.maximum() : 1;
     std::vector<modes::Node> nodes = preset.nodes;
     for (modes::Node& node : nodes) node = {bins.low + node.at * (bins.high - bins.low), node.value * strongest};
     changed.strength_n = modes::TransferFunction(std::move(nodes), changed.strength_n.interpolation());
   };
-  model_.edit(tr("Shape: %1").arg(tr(preset.name)), shape,
-              [this](const QString& why) { show_message(*message_, why, true); });
+  model_.edit_mode(tr("Shape: %1").arg(tr(preset.name)), mode(), shape, [alive = QPointer(this)](const QString& why) {
+    if (alive) show_message(*alive->message_, why, true);
+  });
 }
 
 }  // namespace palpate::plugin

@@ -41,7 +41,6 @@ class CurvesSection : public QWidget {
   void show_mode();
   void use_preset(int index);
   std::size_t mode() const;
-  modes::Gate* gate_of(modes::Scene& scene) const;
 
   SceneModel& model_;
   std::shared_ptr<const ScanStudy> study_;
@@ -52,7 +51,6 @@ class CurvesSection : public QWidget {
   CurveEditor* gate_;
   CurveProfile* profile_;
   QLabel* message_;
-  bool editing_ = false;
   bool key_undoes_ = true;
   bool before_ = false;  // the last edit is taken back while a key is held
 };

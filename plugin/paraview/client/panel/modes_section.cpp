@@ -53,8 +53,8 @@ ModesSection::ModesSection(SceneModel& model, SessionController& touching, QWidg
     if (listing_) return;
     const auto n = static_cast<std::size_t>(list_->row(item));
     const bool on = item->checkState() == Qt::Checked;
-    model_.edit(on ? tr("Switch on %1").arg(item->text()) : tr("Switch off %1").arg(item->text()),
-                [&](modes::Scene& scene) { scene.modes[n].enabled = on; });
+    model_.edit_mode(on ? tr("Switch on %1").arg(item->text()) : tr("Switch off %1").arg(item->text()), n,
+                     [on](modes::Mode& mode) { mode.enabled = on; });
   });
   column->addWidget(list_);
   auto* const row = new QHBoxLayout;
@@ -114,14 +114,15 @@ void ModesSection::build_parameters(QWidget& parent) {
   strength_->setSuffix(tr(" N"));
   strength_->setKeyboardTracking(false);
   connect(strength_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-          [this](double newtons) { set(tr("Strength"), [&](modes::Mode& m) { scale_strength(m, newtons); }); });
+          [this](double newtons) { set(tr("Strength"), [newtons](modes::Mode& m) { scale_strength(m, newtons); }); });
   form->addRow(tr("Strength"), strength_);
   side_ = add_box("palpateSide", tr("Resists"),
                   {tr("entering (towards higher values)"), tr("leaving (towards lower values)"), tr("both")},
-                  [this](int n) { set(tr("Side"), [&](modes::Mode& m) { m.side = static_cast<modes::Side>(n); }); });
+                  [this](int n) { set(tr("Side"), [n](modes::Mode& m) { m.side = static_cast<modes::Side>(n); }); });
   const auto set_tissue = [this](QComboBox* box, std::string modes::Mode::*end) {
-    set(tr("Tissues"), [&](modes::Mode& m) {
-      m.*end = box->currentIndex() == 0 ? std::string() : box->currentText().toStdString();
+    const std::string tissue = box->currentIndex() == 0 ? std::string() : box->currentText().toStdString();
+    set(tr("Tissues"), [tissue, end](modes::Mode& m) {
+      m.*end = tissue;
       if (m.from.empty() != m.to.empty()) m.from.empty() ? m.from = m.to : m.to = m.from;
     });
   };
@@ -129,16 +130,16 @@ void ModesSection::build_parameters(QWidget& parent) {
   to_ = add_box("palpateTo", tr("To"), {}, [this, set_tissue](int) { set_tissue(to_, &modes::Mode::to); });
   direction_ =
       add_box("palpateDirection", tr("Direction"), {tr("the vector field"), tr("the gradient")}, [this](int n) {
-        set(tr("Direction"), [&](modes::Mode& m) { m.direction_of = static_cast<modes::DirectionField>(n); });
+        set(tr("Direction"), [n](modes::Mode& m) { m.direction_of = static_cast<modes::DirectionField>(n); });
       });
   shape_ = add_box("palpateShape", tr("Shape"), {tr("point"), tr("line"), tr("plane")}, [this](int n) {
-    set(tr("Shape"), [&](modes::Mode& m) { m.shape = static_cast<modes::Shape>(n); });
+    set(tr("Shape"), [n](modes::Mode& m) { m.shape = static_cast<modes::Shape>(n); });
   });
   here_ = new QToolButton(&parent);
   here_->setObjectName(QStringLiteral("palpateHere"));
   here_->setText(tr("Put it where the proxy is"));
   connect(here_, &QToolButton::clicked, this,
-          [this] { set(tr("Place"), [&](modes::Mode& m) { m.position_mm = touching_.last().proxy_mm; }); });
+          [this] { set(tr("Place"), [at = touching_.last().proxy_mm](modes::Mode& m) { m.position_mm = at; }); });
   form->addRow(tr("Place"), here_);
 }
 
@@ -149,18 +150,18 @@ std::size_t ModesSection::mode() const {
 void ModesSection::set(const QString& what, const std::function<void(modes::Mode&)>& change) {
   const std::size_t n = mode();
   if (n >= model_.scene().modes.size()) return;
-  model_.edit(tr("%1 of %2").arg(what, name_of(model_.scene(), n)),
-              [&](modes::Scene& scene) { change(scene.modes[n]); });
+  model_.edit_mode(tr("%1 of %2").arg(what, name_of(model_.scene(), n)), n, change);
 }
 
 void ModesSection::add_mode(const std::string& type) {
-  model_.edit(tr("Add %1").arg(QString::fromStdString(type)), [&](modes::Scene& scene) {
+  const glm::dvec3 here = touching_.last().proxy_mm;
+  model_.edit(tr("Add %1").arg(QString::fromStdString(type)), [type, here](modes::Scene& scene) {
     modes::Mode mode;
     mode.type = type;
     mode.name = new_name(scene, type);
     mode.strength_of = modes::find_mode_type(type)->strength_of;
     mode.strength_n = modes::TransferFunction(first_strength_n);
-    mode.position_mm = touching_.last().proxy_mm;
+    mode.position_mm = here;
     if (modes::contains(modes::find_mode_type(type)->keys, modes::Key::margin)) {
       mode.structure = scene.structures.front().name;
     }
@@ -172,8 +173,9 @@ void ModesSection::add_mode(const std::string& type) {
 void ModesSection::remove_mode() {
   const std::size_t n = mode();
   if (n >= model_.scene().modes.size()) return;
-  model_.edit(tr("Remove %1").arg(name_of(model_.scene(), n)),
-              [&](modes::Scene& scene) { scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(n)); });
+  model_.edit(tr("Remove %1").arg(name_of(model_.scene(), n)), [n](modes::Scene& scene) {
+    if (n < scene.modes.size()) scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(n));
+  });
 }
 
 void ModesSection::list_modes() {

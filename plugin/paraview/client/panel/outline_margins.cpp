@@ -15,8 +15,6 @@ io::ComparedOutline compared(const std::shared_ptr<const io::DistanceField>& out
           .true_to_mm = std::max(outline->reach_mm() - short_of_mm, least_mm)};
 }
 
-}  // namespace
-
 std::vector<OutlineMargin> margins_from(const std::shared_ptr<const io::DistanceField>& outline,
                                         const io::StructureBox& box, const std::vector<KeepOut>& keep_outs) {
   std::vector<OutlineMargin> margins;
@@ -26,6 +24,34 @@ std::vector<OutlineMargin> margins_from(const std::shared_ptr<const io::Distance
                        .mm = io::margin_mm(compared(outline, box), compared(one.outline, one.box))});
   }
   return margins;
+}
+
+}  // namespace
+
+void OutlineMargins::measure(const std::shared_ptr<const io::DistanceField>& outline, const io::StructureBox& box,
+                             const std::vector<KeepOut>& keep_outs) {
+  if (outline_ == outline && keep_outs_ == keep_outs) return;
+  outline_ = outline;
+  keep_outs_ = keep_outs;
+  margins_.clear();
+  job_.cancel();
+  if (keep_outs.empty()) return;
+  job_.ask([outline, keep_outs, box] { return margins_from(outline, box, keep_outs); },
+           [this](const auto& measured, const QString&) {
+             if (measured) margins_ = *measured;
+             measured_();
+           });
+}
+
+void OutlineMargins::forget() {
+  job_.cancel();
+  outline_ = nullptr;
+  keep_outs_.clear();
+  margins_.clear();
+}
+
+std::vector<OutlineMargin> OutlineMargins::of(const std::shared_ptr<const io::DistanceField>& outline) const {
+  return outline == outline_ ? margins_ : std::vector<OutlineMargin>();
 }
 
 }  // namespace palpate::plugin

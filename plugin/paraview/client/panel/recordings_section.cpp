@@ -23,14 +23,13 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/panel/chart_picture.h"
 #include "plugin/paraview/client/widgets/message_label.h"
-#include "plugin/paraview/client/widgets/save_buttons.h"
 #include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
 namespace {
 
-constexpr int comparison_pixels = 130;
+constexpr int force_pixels = 130;
 constexpr std::array speeds{0.1, 0.25, 0.5, 1.0, 2.0, 5.0};
 constexpr std::size_t most_points_drawn = 2000;
 
@@ -98,7 +97,8 @@ RecordingsSection::RecordingsSection(OpenViews& views, SessionController& touchi
   row->addWidget(name_, 1);
   column->addLayout(row);
   column->addWidget(player_ = build_player());
-  column->addWidget(comparison_ = build_comparison());
+  column->addWidget(comparison_ = new RecordingComparison(this));
+  connect(comparison_, &RecordingComparison::told, this, &RecordingsSection::tell);
   message_ = make_message_label(*this, "palpateRecordingMessage");
   column->addWidget(message_);
   touching.show_instead([this] {
@@ -122,7 +122,7 @@ QWidget* RecordingsSection::build_player() {
   auto* const column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
-  force_ = new ChartPicture(comparison_pixels, box);
+  force_ = new ChartPicture(force_pixels, box);
   force_->setObjectName(QStringLiteral("palpateRecordedForce"));
   connect(force_, &ChartPicture::picked, this, [this](double seconds) { seek(seconds); });
   column->addWidget(force_);
@@ -152,37 +152,17 @@ QWidget* RecordingsSection::build_player() {
   time_ = new QLabel(box);
   time_->setObjectName(QStringLiteral("palpateReplayTime"));
   last->addWidget(time_, 1);
-  compare_ = new QPushButton(tr("Compare with…"), box);
-  compare_->setObjectName(QStringLiteral("palpateCompare"));
-  compare_->setToolTip(tr("Compares with another recording of the same stroke, place by place, at any speed"));
-  connect(compare_, &QPushButton::clicked, this, [this] {
+  auto* const compare = new QPushButton(tr("Compare with…"), box);
+  compare->setObjectName(QStringLiteral("palpateCompare"));
+  compare->setToolTip(tr("Compares with another recording of the same stroke, place by place, at any speed"));
+  connect(compare, &QPushButton::clicked, this, [this] {
     if (const QString file = ask_for_recording(this); !file.isEmpty()) read(file, true);
   });
-  last->addWidget(compare_);
+  last->addWidget(compare);
   auto* const close_button = add_tool_button(*last, *box, "palpateCloseRecording", QStringLiteral("✕"),
                                              tr("Close the recordings"), [this] { close_all(); });
   close_button->setAutoRaise(true);
   column->addLayout(last);
-  return box;
-}
-
-QWidget* RecordingsSection::build_comparison() {
-  auto* const box = new QWidget(this);
-  auto* const column = new QVBoxLayout(box);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(2);
-  chart_ = new ChartPicture(comparison_pixels, box);
-  chart_->setObjectName(QStringLiteral("palpateComparisonChart"));
-  column->addWidget(chart_);
-  add_save_buttons(
-      *column, *box, QStringLiteral("Comparison"),
-      [this](bool table) -> std::function<void(const std::string&)> {
-        return [both = both_, first = first_.name.toStdString(), second = second_.name.toStdString(),
-                table](const std::string& file) {
-          table ? write_csv(*both, file) : write_png(charts_of(*both, first, second), file);
-        };
-      },
-      [this](const QString& problem) { tell(problem, true); });
   return box;
 }
 
@@ -199,7 +179,8 @@ void RecordingsSection::read(const QString& file, bool second) {
   const auto read_it = [file, volume] {
     const QString name = QFileInfo(file).fileName();
     try {
-      return Opened{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume), volume};
+      return Opened{{name, std::make_shared<const RecordedSession>(read_recording(file.toStdString()), *volume)},
+                    volume};
     } catch (const std::exception& error) {
       // The file's name without its folders, which may hold a patient's.
       std::string what = error.what();
@@ -249,13 +230,9 @@ void RecordingsSection::close_all() {
 }
 
 void RecordingsSection::set_second(Opened opened) {
-  compare_job_.cancel();
   second_ = std::move(opened);
-  show_comparison(nullptr, {});
+  comparison_->compare(first_, second_);
   show_paths();
-  if (!first_.session || !second_.session) return;
-  compare_job_.ask([a = first_.session, b = second_.session] { return compare_strokes(*a, *b); },
-                   [this](const auto& both, const QString& error) { show_comparison(both, error); });
 }
 
 void RecordingsSection::play_or_pause() {
@@ -288,17 +265,6 @@ void RecordingsSection::show_force() {
   } else {
     force_->show_charts({}, 0);
   }
-}
-
-void RecordingsSection::show_comparison(std::shared_ptr<const Comparison> both, const QString& error) {
-  both_ = std::move(both);
-  comparison_->setVisible(both_ != nullptr);
-  if (!error.isEmpty()) tell(error, true);
-  if (!both_) return;
-  std::vector<Chart> charts = charts_of(*both_, first_.name.toStdString(), second_.name.toStdString());
-  charts.pop_back();  // how far the ways are apart is told in words
-  chart_->show_charts(std::move(charts), both_->along_mm.back());
-  tell(tr("Blue: %1, orange: %2. %3").arg(first_.name, second_.name, QString::fromStdString(in_words(*both_))));
 }
 
 void RecordingsSection::show_paths() {

@@ -10,12 +10,11 @@
 
 #include "plugin/paraview/client/jobs/job.h"
 #include "plugin/paraview/client/model/playback.h"
+#include "plugin/paraview/client/panel/recording_comparison.h"
 #include "plugin/paraview/client/views/path_views.h"
-#include "plugin/report/compare_strokes.h"
 
 class QComboBox;
 class QLabel;
-class QPushButton;
 class QSlider;
 class QToolButton;
 
@@ -33,14 +32,11 @@ class RecordingsSection : public QWidget {
   void open(const QString& file);
 
  private:
-  struct Opened {
-    QString name;
-    std::shared_ptr<const RecordedSession> session;
+  struct Opened : RecordingComparison::Recording {
     std::weak_ptr<const io::Volume> scan;  ///< that it is of
   };
 
   QWidget* build_player();
-  QWidget* build_comparison();
   void read(const QString& file, bool second);
   void take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second);
   void close_all();
@@ -50,14 +46,12 @@ class RecordingsSection : public QWidget {
   void seek(double seconds);
   void show_player();
   void show_force();
-  void show_comparison(std::shared_ptr<const Comparison> both, const QString& error);
   void show_paths();
   void tell(const QString& text, bool problem = false);
 
   SessionController& touching_;
   Playback playback_;
   Opened first_, second_;
-  std::shared_ptr<const Comparison> both_;
   PathViews first_path_, second_path_;
   OpenViews::Following following_;  // of another scan the recordings are no longer
   QLabel* name_ = nullptr;
@@ -68,11 +62,9 @@ class RecordingsSection : public QWidget {
   QLabel* held_ = nullptr;  // why it cannot be played
   QLabel* time_ = nullptr;
   ChartPicture* force_ = nullptr;
-  QPushButton* compare_ = nullptr;
-  QWidget* comparison_ = nullptr;
-  ChartPicture* chart_ = nullptr;
+  RecordingComparison* comparison_ = nullptr;
   QLabel* message_ = nullptr;
-  Job first_job_{Job::Newer::follows}, second_job_{Job::Newer::follows}, compare_job_{Job::Newer::follows};
+  Job first_job_{Job::Newer::follows}, second_job_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin

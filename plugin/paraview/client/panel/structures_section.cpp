@@ -22,7 +22,6 @@
 #include "plugin/paraview/client/words.h"
 #include "plugin/structures/drawn_structure.h"
 #include "plugin/structures/structure_files.h"
-#include "plugin/structures/study_registrations.h"
 #include "plugin/structures/study_structures.h"
 
 namespace palpate::plugin {
@@ -62,7 +61,12 @@ bool StructuresSection::is_edited(const Entry& entry) {
 
 StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching,
                                      CorrectionModel& correction, QWidget* parent)
-    : QWidget(parent), model_(model), touching_(touching), correction_(correction), drawn_(views) {
+    : QWidget(parent),
+      model_(model),
+      touching_(touching),
+      correction_(correction),
+      drawn_(views),
+      finder_([this](const auto& found) { take(found); }, [this](const QString& why) { tell(why, true); }) {
   setObjectName(QStringLiteral("palpateStructures"));
   setAcceptDrops(true);
   build();
@@ -96,31 +100,24 @@ StructuresSection::~StructuresSection() {
 
 void StructuresSection::set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder) {
   correction_.forget();  // while the scan is here: the scene follows
-  finding_.cancel();
+  finder_.set_scan(scan);
   making_.cancel();
-  measuring_margins_.cancel();
-  margins_from_ = nullptr;
-  keep_outs_.clear();
-  margins_.clear();
+  margins_.forget();
   scan_ = std::move(scan);
   entries_.clear();
-  looked_into_.clear();
-  waiting_.clear();
-  asked_ = false;
-  served_ = false;
-  problem_.clear();
   tell({}, false);
   list();
   draw();
   if (!scan_) return;
   std::error_code absent;
-  if (!folder.empty() && std::filesystem::exists(folder, absent)) look_into({folder});
+  if (!folder.empty() && std::filesystem::exists(folder, absent)) finder_.look_into({folder});
   follow_scene();
 }
 
 void StructuresSection::set_frame(const std::shared_ptr<const io::Volume>& frame) {
   if (scan_ == frame) return;
   scan_ = frame;
+  finder_.set_frame(frame);
   making_.cancel();
   follow_scene();
   correction_.look_again();
@@ -128,42 +125,15 @@ void StructuresSection::set_frame(const std::shared_ptr<const io::Volume>& frame
 }
 
 void StructuresSection::add(const std::vector<std::filesystem::path>& files, const QString& problem) {
-  problem_ = problem;
-  served_ = true;
   if (!problem.isEmpty()) tell(problem, true);
-  look_into(files);
+  finder_.look_into_served(files, problem);
 }
 
-void StructuresSection::look_into(const std::vector<std::filesystem::path>& places) {
-  if (!scan_) return;
-  for (const std::filesystem::path& place : places) {
-    if (looked_into_.insert(place).second) waiting_.push_back(copy_of(place));
-  }
-  if (waiting_.empty()) return;
-  const auto find = [places = waiting_, scan = scan_] {
-    io::StructureCatalogue found = io::find_structures(places);
-    // Those that a scene will find, and no others: what is listed here is what can be felt.
-    found.registrations.clear();
-    std::set<std::filesystem::path> looked;
-    StudyRegistrations study;
-    for (io::Structure& structure : found.structures) {
-      structure.file = name_of_copy(structure.file);
-      if (!looked.insert(structure.file).second) continue;
-      for (io::Registration& one : study.beside(structure, *scan)) found.registrations.push_back(std::move(one));
-    }
-    return found;
-  };
-  finding_.ask(find, [this](const auto& found, const QString& error) {
-    if (found) take(*found);
-    if (!error.isEmpty()) tell(error, true);
-  });
-}
-
-void StructuresSection::take(const io::StructureCatalogue& found) {
-  waiting_.clear();
+void StructuresSection::take(const StructureFinder::Found& result) {
+  const io::StructureCatalogue& found = result.catalogue;
   QStringList notes;
-  if (const QString problem = std::exchange(problem_, {}); !problem.isEmpty()) notes << problem;
-  if (std::exchange(served_, false)) {
+  if (!result.problem.isEmpty()) notes << result.problem;
+  if (result.served) {
     for (const io::SkippedFile& one : found.skipped) notes << structure_text(one.reason);
   }
   const bool few = found.structures.size() + entries_.size() <= shown_at_once;
@@ -183,7 +153,7 @@ void StructuresSection::take(const io::StructureCatalogue& found) {
     entry.shown = entry.why_not.empty() && few;
     entries_.push_back(std::move(entry));
   }
-  if (std::exchange(asked_, false) && found.structures.empty()) {
+  if (result.asked && found.structures.empty()) {
     tell(found.skipped.empty()
              ? tr("No structures were found there (DICOM SEG or RTSTRUCT).")
              : structure_text(found.skipped.front().path.filename().string() + ": " + found.skipped.front().reason),
@@ -238,7 +208,7 @@ void StructuresSection::follow_scene() {
   make_next();
   measure_margins();
   follow_strokes();
-  look_into(files);
+  finder_.look_into(files);
 }
 
 StructuresSection::Entry* StructuresSection::chosen() {

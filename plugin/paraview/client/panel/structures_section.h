@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/panel/made_structure.h"
 #include "plugin/paraview/client/panel/outline_margins.h"
+#include "plugin/paraview/client/panel/structure_finder.h"
 #include "plugin/paraview/client/views/structure_views.h"
 #include "plugin/structures/scene_structures.h"
 
@@ -82,8 +82,7 @@ class StructuresSection : public QWidget {
   void build();
   QWidget* build_uses();
   void ask_files();
-  void look_into(const std::vector<std::filesystem::path>& places);
-  void take(const io::StructureCatalogue& found);
+  void take(const StructureFinder::Found& found);
   void follow_scene();
   void list();
   void show_row(QTreeWidgetItem& item, const Entry& entry) const;
@@ -126,21 +125,13 @@ class StructuresSection : public QWidget {
 
   std::shared_ptr<const io::Volume> scan_;
   std::vector<Entry> entries_;
-  std::set<std::filesystem::path> looked_into_;
-  std::vector<std::filesystem::path> waiting_;  // files and folders to be looked into
-  bool asked_ = false;                          // for what is being looked into, by the user
-  bool served_ = false;                         // by a server
-  QString problem_;                             // of what is being looked into: some of it is not here
   bool listing_ = false;
   StructureViews drawn_;
-  Job finding_{Job::Newer::follows};
+  StructureFinder finder_;
   Job making_{Job::Newer::follows};
   Job doubting_;
   Job looking_beside_;
-  std::vector<KeepOut> keep_outs_;                         // that margins_ is of, or will be
-  std::shared_ptr<const io::DistanceField> margins_from_;  // the same
-  std::vector<OutlineMargin> margins_;
-  Job measuring_margins_{Job::Newer::follows};
+  OutlineMargins margins_{[this] { follow_correction(); }};
 };
 
 }  // namespace palpate::plugin

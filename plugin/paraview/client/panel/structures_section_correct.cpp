@@ -93,26 +93,12 @@ void StructuresSection::measure_margins() {
     }
     keep_outs.push_back({other.structure.name, *margin_mm, read->distance, box});
   }
-  if (margins_from_ == outline && keep_outs_ == keep_outs) return;
-  margins_from_ = outline;
-  keep_outs_ = keep_outs;
-  margins_.clear();
-  measuring_margins_.cancel();
-  if (keep_outs.empty()) return;
-  measuring_margins_.ask(
-      [outline, keep_outs, box = io::StructureBox{entry->made.drawn.low_mm, entry->made.drawn.high_mm}] {
-        return margins_from(outline, box, keep_outs);
-      },
-      [this](const auto& measured, const QString&) {
-        if (measured) margins_ = *measured;
-        follow_correction();
-      });
+  margins_.measure(outline, {entry->made.drawn.low_mm, entry->made.drawn.high_mm}, keep_outs);
 }
 
 QString StructuresSection::margins_in_words() const {
   QString text;
-  if (margins_from_ != corrected()) return text;
-  for (const OutlineMargin& one : margins_) {
+  for (const OutlineMargin& one : margins_.of(corrected())) {
     const QString name = QString::fromStdString(one.name);
     const auto mm = [](double length) { return QString::number(length, 'f', 1); };
     text += QLatin1Char('\n') +

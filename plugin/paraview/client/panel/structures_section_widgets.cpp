@@ -138,8 +138,7 @@ void StructuresSection::ask_files() {
       QFileDialog::getOpenFileNames(this, tr("Add structures"), {}, tr("Structures (*.dcm *);;All files (*)"));
   std::vector<std::filesystem::path> places;
   for (const QString& file : files) places.emplace_back(file.toStdString());
-  asked_ = !places.empty();
-  look_into(places);
+  finder_.look_into_asked(places);
 }
 
 void StructuresSection::dragEnterEvent(QDragEnterEvent* event) {
@@ -151,8 +150,7 @@ void StructuresSection::dropEvent(QDropEvent* event) {
   for (const QUrl& url : event->mimeData()->urls()) {
     if (url.isLocalFile()) places.emplace_back(url.toLocalFile().toStdString());
   }
-  asked_ = !places.empty();
-  look_into(places);
+  finder_.look_into_asked(places);
 }
 
 void StructuresSection::choose_color(std::size_t n) {
@@ -162,11 +160,13 @@ void StructuresSection::choose_color(std::size_t n) {
                                                      widget_text(structure.name), QColorDialog::DontUseNativeDialog);
   if (!chosen_color.isValid() || n >= entries_.size()) return;
   entries_[n].color = entries_[n].structure.color = chosen_color.name().toStdString();
-  const auto in_scene = [&](const modes::SceneStructure& named) { return is_same(named, structure); };
+  const auto in_scene = [structure](const modes::SceneStructure& named) { return is_same(named, structure); };
   if (std::ranges::any_of(model_.scene().structures, in_scene)) {
-    model_.edit(tr("Color %1").arg(widget_text(structure.name)), [&](modes::Scene& scene) {
-      std::ranges::find_if(scene.structures, in_scene)->color = entries_[n].color;
-    });
+    model_.edit(tr("Color %1").arg(widget_text(structure.name)),
+                [in_scene, color = entries_[n].color](modes::Scene& scene) {
+                  const auto named = std::ranges::find_if(scene.structures, in_scene);
+                  if (named != scene.structures.end()) named->color = color;
+                });
   }
   list();
   draw();

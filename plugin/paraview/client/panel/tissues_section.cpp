@@ -7,6 +7,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPointer>
 #include <QSaveFile>
 #include <QSignalBlocker>
 
@@ -194,11 +195,17 @@ void TissuesSection::choose_scene(int index) {
 }
 
 void TissuesSection::choose(int item, const QString& what) {
-  choosing_ = item;
   model_.edit(
-      what, [&](modes::Scene& scene) { scene = with_hand_of(choices_[static_cast<std::size_t>(item)].scene, scene); },
-      [this](const QString& why) { why.isEmpty() ? emit scene_kept() : emit model_.refused(why); });
-  choosing_.reset();
+      what,
+      [alive = QPointer(this), item, chosen = choices_[static_cast<std::size_t>(item)].scene](modes::Scene& scene) {
+        scene = with_hand_of(chosen, scene);
+        if (alive) alive->choosing_ = item;
+      },
+      [alive = QPointer(this)](const QString& why) {
+        if (!alive) return;
+        alive->choosing_.reset();
+        why.isEmpty() ? emit alive->scene_kept() : emit alive->model_.refused(why);
+      });
 }
 
 void TissuesSection::open_file() {

@@ -1,10 +1,8 @@
 #include "plugin/paraview/client/scan/archive_tab.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QImage>
-#include <QLineEdit>
 #include <QPixmap>
 #include <QProgressBar>
 #include <QPushButton>
@@ -19,10 +17,10 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/archive_dialog.h"
 #include "plugin/paraview/client/scan/archive_items.h"
+#include "plugin/paraview/client/scan/archive_search.h"
 #include "plugin/paraview/client/scan/archive_words.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
-#include "plugin/paraview/client/words/archive_date.h"
 
 namespace palpate::plugin {
 
@@ -33,10 +31,6 @@ ArchiveTab::ArchiveTab(QWidget* parent) : QWidget(parent) {
   build_archives();
   build_search();
   build_fetch();
-  constexpr int typed_ms = 350;
-  typing_.setSingleShot(true);
-  typing_.setInterval(typed_ms);
-  connect(&typing_, &QTimer::timeout, this, [this] { search(false); });
   connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, [this] { close(); });
   set_fetching(false);
   tell({});
@@ -62,7 +56,7 @@ void ArchiveTab::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   list_archives(archives_->currentText());
   count_on_disk();
-  patient_->setFocus();
+  search_->focus();
   if (archive() && found_->topLevelItemCount() == 0) search(false);
 }
 
@@ -106,23 +100,14 @@ void ArchiveTab::echo() {
                });
 }
 
-/// `begun_date`: also where a date is not whole; the archive's code then says what a date is.
 void ArchiveTab::search(bool begun_date) {
-  typing_.stop();
   const auto asked = archive();
-  const auto date = archive_date(date_->text());
-  if (!asked || (!date && !begun_date)) return;
-  io::ArchiveQuery query;
-  query.patient = patient_->text().trimmed().toStdString();
-  query.patient_id = id_->text().trimmed().toStdString();
-  query.description = description_->text().trimmed().toStdString();
-  query.date = date ? *date : date_->text().trimmed().toStdString();
-  if (modality_->currentIndex() > 0) query.modality = modality_->currentText().toStdString();
-  query.with_series = false;  // asked for where one looks
+  const auto query = search_->query(begun_date);
+  if (!asked || !query) return;
   listing_.cancel();
   unlisted_.clear();
   tell(words(say("archive-is-asked", asked->name)));
-  finding_.ask([asked, query](const auto& job) { return io::find(*asked, query, job.keep_going); },
+  finding_.ask([asked, query](const auto& job) { return io::find(*asked, *query, job.keep_going); },
                [this](const auto& found, const QString& error) {
                  tell(error, true);
                  if (found) list(*found);

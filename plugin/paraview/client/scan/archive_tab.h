@@ -4,7 +4,6 @@
 
 #include <QHash>
 #include <QIcon>
-#include <QTimer>
 #include <QWidget>
 
 #include <filesystem>
@@ -18,17 +17,17 @@
 #include "plugin/app/fetched.h"
 #include "plugin/paraview/client/jobs/job.h"
 
-class QCheckBox;
 class QComboBox;
 class QImage;
 class QLabel;
-class QLineEdit;
 class QProgressBar;
 class QPushButton;
 class QTreeWidget;
 class QTreeWidgetItem;
 
 namespace palpate::plugin {
+
+class ArchiveSearch;
 
 class ArchiveTab : public QWidget {
   Q_OBJECT
@@ -76,16 +75,11 @@ class ArchiveTab : public QWidget {
 
   QComboBox* archives_ = nullptr;
   QPushButton* echo_ = nullptr;
-  QLineEdit* patient_ = nullptr;
-  QLineEdit* id_ = nullptr;
-  QLineEdit* date_ = nullptr;
-  QComboBox* modality_ = nullptr;
-  QLineEdit* description_ = nullptr;
+  ArchiveSearch* search_ = nullptr;
   QTreeWidget* found_ = nullptr;
   QPushButton* fetch_ = nullptr;
   QProgressBar* progress_ = nullptr;
   QPushButton* cancel_ = nullptr;
-  QCheckBox* keep_ = nullptr;
   QLabel* on_disk_ = nullptr;
   QPushButton* empty_ = nullptr;
   QLabel* message_ = nullptr;
@@ -94,7 +88,6 @@ class ArchiveTab : public QWidget {
   std::vector<io::Archive> entered_;
   QHash<QString, QIcon> pictures_;  // by series UID
   std::vector<QString> unlisted_;   // studies whose series are to be asked for
-  QTimer typing_;
   FetchedRun run_;
   Job echoing_;
   Job finding_;

@@ -1,9 +1,7 @@
 #include <QCheckBox>
 #include <QComboBox>
-#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTreeWidget>
@@ -11,6 +9,7 @@
 
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/archive_items.h"
+#include "plugin/paraview/client/scan/archive_search.h"
 #include "plugin/paraview/client/scan/archive_tab.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
@@ -41,36 +40,9 @@ void ArchiveTab::build_archives() {
 }
 
 void ArchiveTab::build_search() {
-  auto* const grid = new QGridLayout;
-  const auto field = [&](const char* name, const QString& what, const QString& tip) {
-    auto* const line = new QLineEdit(this);
-    line->setObjectName(QString::fromLatin1(name));
-    line->setPlaceholderText(what);
-    line->setToolTip(tip);
-    line->setClearButtonEnabled(true);
-    connect(line, &QLineEdit::textEdited, this, [this] { typing_.start(); });
-    connect(line, &QLineEdit::returnPressed, this, [this] { search(true); });
-    return line;
-  };
-  grid->addWidget(patient_ = field("palpateFindPatient", tr("Patient"), tr("Part of the name, family name first")), 0,
-                  0);
-  grid->addWidget(id_ = field("palpateFindId", tr("Patient's id"), tr("The whole id; * stands for anything")), 0, 1, 1,
-                  2);
-  grid->addWidget(
-      description_ = field("palpateFindDescription", tr("Description"), tr("Part of the study's description")), 1, 0);
-  grid->addWidget(date_ = field("palpateFindDate", tr("Date"),
-                                tr("Of the study: 2026, 2026-01, 2026-01-04, or a span 20260101-20260131")),
-                  1, 1);
-  modality_ = new QComboBox(this);
-  modality_->setObjectName(QStringLiteral("palpateFindModality"));
-  modality_->addItem(tr("All"));
-  modality_->addItems({QStringLiteral("CT"), QStringLiteral("MR"), QStringLiteral("PT"), QStringLiteral("XA")});
-  modality_->setToolTip(tr("Modality"));
-  connect(modality_, QOverload<int>::of(&QComboBox::activated), this, [this] { search(false); });
-  grid->addWidget(modality_, 1, 2);
-  grid->setColumnStretch(0, 3);
-  grid->setColumnStretch(1, 3);
-  static_cast<QVBoxLayout*>(layout())->addLayout(grid);
+  search_ = new ArchiveSearch(this);
+  connect(search_, &ArchiveSearch::wanted, this, &ArchiveTab::search);
+  layout()->addWidget(search_);
 
   constexpr int picture_pixels = 48;
   found_ = new QTreeWidget(this);
@@ -112,11 +84,11 @@ void ArchiveTab::build_fetch() {
   static_cast<QVBoxLayout*>(layout())->addLayout(work);
 
   auto* const disk = new QHBoxLayout;
-  keep_ = new QCheckBox(tr("Keep"), this);
-  keep_->setObjectName(QStringLiteral("palpateKeep"));
-  keep_->setToolTip(tr("Keeps the fetched scans after the program ends. Otherwise they are deleted."));
-  connect(keep_, &QCheckBox::toggled, this, [this](bool on) { run_.set_kept(on); });
-  disk->addWidget(keep_);
+  auto* const keep = new QCheckBox(tr("Keep"), this);
+  keep->setObjectName(QStringLiteral("palpateKeep"));
+  keep->setToolTip(tr("Keeps the fetched scans after the program ends. Otherwise they are deleted."));
+  connect(keep, &QCheckBox::toggled, this, [this](bool on) { run_.set_kept(on); });
+  disk->addWidget(keep);
   on_disk_ = new QLabel(this);
   on_disk_->setObjectName(QStringLiteral("palpateOnDisk"));
   disk->addWidget(on_disk_, 1);

@@ -182,7 +182,8 @@ void FilterRow::ask() {
     follow();
     return;
   }
-  compute(filter, [this, filter] { model_.edit(tr("filter"), [&](modes::Scene& scene) { scene.filter = filter; }); });
+  compute(filter,
+          [this, filter] { model_.edit(tr("filter"), [filter](modes::Scene& scene) { scene.filter = filter; }); });
 }
 
 /// Undo, and whatever else changes the scene's text in the pipeline.

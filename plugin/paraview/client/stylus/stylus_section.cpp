@@ -99,7 +99,7 @@ void StylusSection::build_limits() {
     box->setSuffix(suffix);
     box->setKeyboardTracking(false);
     connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-            [this, label, set](double value) { model_.edit(label, [&](modes::Scene& s) { set(s, value); }); });
+            [this, label, set](double value) { model_.edit(label, [set, value](modes::Scene& s) { set(s, value); }); });
     grid->addWidget(new QLabel(label, this), row, 0);
     grid->addWidget(box, row, 1);
     return box;
@@ -344,7 +344,7 @@ void StylusSection::show_look(const SessionStatus& look) {
 
 void StylusSection::remap(const QString& what, const modes::WorkspaceSettings& settings) {
   if (!touching_.may_remap()) return;
-  model_.edit(tr("Reach: %1").arg(what), [&](modes::Scene& s) { s.workspace = settings; });
+  model_.edit(tr("Reach: %1").arg(what), [settings](modes::Scene& s) { s.workspace = settings; });
 }
 
 void StylusSection::clutch(bool on) {

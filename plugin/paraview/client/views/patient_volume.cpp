@@ -107,10 +107,7 @@ void PatientVolume::take_image() {
   whole_image_ = vtkSmartPointer<vtkImageData>::New();
   whole_image_->ShallowCopy(image);
   cut_image_ = nullptr;
-  cast_image_ = nullptr;
-  caster_ = nullptr;
-  cannot_cast_ = false;
-  casting_.cancel();
+  casting_.forget();
   seeking_body_.cancel();
   refresh();
   if (!seek_body) return;
@@ -173,30 +170,6 @@ void PatientVolume::take_out(vtkVolume& theirs, bool out) {
   }
 }
 
-/// In the background; what is drawn until then stays.
-void PatientVolume::prepare_to_cast(vtkImageData& image) {
-  if (cast_image_ == &image) return;
-  cast_image_ = &image;
-  // Half of them along each axis first: an eighth of the time.
-  constexpr vtkIdType many_voxels = 20'000'000;
-  coarse_ = !caster_ && image.GetNumberOfPoints() > many_voxels;
-  cast(coarse_ ? 2 : 1);
-}
-
-void PatientVolume::cast(int step) {
-  casting_.cancel();
-  casting_.ask([prepare = preparing_to_cast(*cast_image_, step)](
-                   const Job::Control& control) { return prepare(control.keep_going); },
-               [this](const auto& mapper, const QString&) { take_caster(mapper ? mapper->Get() : nullptr); });
-}
-
-void PatientVolume::take_caster(vtkFixedPointVolumeRayCastMapper* mapper) {
-  if (mapper) caster_ = mapper;  // else the coarse one stays, where there is one
-  cannot_cast_ = !caster_;
-  refresh();
-  if (std::exchange(coarse_, false) && mapper && cast_image_) cast(1);
-}
-
 /// Under *Advanced* the user can hide the scan, or show it as something else.
 bool PatientVolume::is_shown() const {
   pqDataRepresentation* const shown = scan_ ? scan_->getRepresentation(view_) : nullptr;
@@ -212,9 +185,9 @@ void PatientVolume::refresh() {
   if (!theirs) return;
   const bool cut = cut_ && cut_image_;
   vtkImageData* const image = cut ? cut_image_ : whole_image_;
-  const bool cast = image && !cannot_cast_ && can_be_cast(*image) && draws_without_card();
-  if (cast && !waits_) prepare_to_cast(*image);
-  const bool hidden = hidden_ || waits_ || (cast && !caster_) || !is_shown();
+  const bool cast = image && casting_.can_cast() && can_be_cast(*image) && draws_without_card();
+  if (cast && !waits_) casting_.prepare(*image);
+  const bool hidden = hidden_ || waits_ || (cast && !casting_.mapper()) || !is_shown();
   const bool ours = !hidden && (cut || cropped_ || cast);
   if (cropped_ && !box_) box_ = std::make_unique<CropBox>(*view_, whole_image_->GetBounds());
   if (box_) box_->set_visible(cropped_);
@@ -239,7 +212,7 @@ void PatientVolume::draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast)
       follow();
       look_watch_ = std::make_unique<EventWatch>(theirs.GetProperty(), vtkCommand::ModifiedEvent, follow);
     }
-    own_->SetMapper(caster_);
+    own_->SetMapper(casting_.mapper());
     own_->SetUserMatrix(place_of(image));
   } else {
     look_watch_.reset();

@@ -14,10 +14,10 @@
 #include <memory>
 
 #include "plugin/paraview/client/jobs/job.h"
+#include "plugin/paraview/client/views/casting.h"
 
 class pqPipelineSource;
 class pqRenderView;
-class vtkFixedPointVolumeRayCastMapper;
 class vtkImageData;
 class vtkVolume;
 
@@ -51,9 +51,6 @@ class PatientVolume {
   void begin_to_draw();
   void refresh();
   void draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast);
-  void prepare_to_cast(vtkImageData& image);
-  void cast(int step);
-  void take_caster(vtkFixedPointVolumeRayCastMapper* mapper);
   void take_out(vtkVolume& theirs, bool out);
   vtkVolume* of_paraview() const;
   bool is_shown() const;
@@ -63,19 +60,15 @@ class PatientVolume {
   bool hounsfield_;
   std::function<void()> changed_;
   vtkSmartPointer<vtkImageData> whole_image_, cut_image_;
-  vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> caster_;  // without a graphics card
-  vtkSmartPointer<vtkImageData> cast_image_;                  // that it draws, or is being prepared to
   vtkSmartPointer<vtkVolume> own_;
   std::unique_ptr<EventWatch> look_watch_;  // of what is chosen for ParaView's
   std::unique_ptr<EventWatch> type_watch_;  // whether that is a volume
   vtkSmartPointer<vtkVolume> taken_out_;    // ParaView's, while it is not drawn
   std::unique_ptr<CropBox> box_;
   bool cut_ = true, cropped_ = false, hidden_ = false, waits_ = true;
-  bool coarse_ = false;       // what is being prepared is a first picture
-  bool cannot_cast_ = false;  // it could not be prepared: ParaView draws
-  QObject lifetime_;          // its end ends what is connected to the scan
+  QObject lifetime_;  // its end ends what is connected to the scan
   // Last: they end before what they set.
-  Job casting_{Job::Newer::follows};
+  Casting casting_{[this] { refresh(); }};  // without a graphics card
   Job seeking_body_{Job::Newer::follows};
 };
 

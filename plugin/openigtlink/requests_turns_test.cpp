@@ -1,0 +1,110 @@
+// What clients ask for: folders, and which of several requests is felt.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <string>
+
+#include "plugin/openigtlink/names.h"
+#include "plugin/openigtlink/requests.h"
+#include "plugin/openigtlink/testing/asked_session.h"
+
+namespace palpate::plugin::igtl {
+namespace {
+
+using testing::sent_n;
+using testing::SharedSession;
+using testing::TestClient;
+
+/// A folder whose loading takes until it is let go.
+struct SlowFolder {
+  std::promise<void> begun, let_go;
+  std::shared_future<void> until = let_go.get_future().share();
+
+  LoadedScan load() {
+    begun.set_value();
+    until.wait();
+    return {.volume = testing::ball_of_tissue(), .frame = {}};
+  }
+};
+
+TEST(OpenIgtRequests, AFolderIsLoadedAndASceneGoesOn) {
+  SharedSession shared;
+  std::string asked;
+  shared.load = [&](const std::string& folder) {
+    asked = folder;
+    return LoadedScan{.volume = testing::ball_of_tissue(), .frame = {}};
+  };
+  TestClient client(shared.server.port());
+  const auto before = shared.session.scan();
+  client.send_text(folder_name, "/scans/other");
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scan() != before; }));
+  EXPECT_EQ(asked, "/scans/other");
+  EXPECT_EQ(shared.session.scene().name, "CT: skin and bone");
+  EXPECT_TRUE(shared.comes([&] { return sent_n(shared) > 0.3; }));
+}
+
+TEST(OpenIgtRequests, OfWhatComesWhileOneIsPreparedTheNewestIsFelt) {
+  SharedSession shared;
+  SlowFolder slow;
+  shared.load = [&](const std::string&) { return slow.load(); };
+  TestClient client(shared.server.port());
+  client.send_text(folder_name, "/scans/slow");
+  auto begun = slow.begun.get_future();
+  ASSERT_TRUE(shared.comes([&] { return begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  constexpr int scenes = 40;
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  for (int n = 0; n < scenes; ++n) {
+    scene.name = "scene " + std::to_string(n);
+    client.send_text(scene_name, modes::to_json(scene));
+    shared.look();
+  }
+  EXPECT_TRUE(shared.comes([&] { return shared.server.counts().taken == scenes + 1U; }));
+  EXPECT_EQ(shared.server.counts().outrun, scenes - 1U) << "they wait where the newest takes the place of the others";
+  slow.let_go.set_value();
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scene().name == "scene 39"; }));
+}
+
+TEST(OpenIgtRequests, WhatTheOwnerDoesMeanwhileStays) {
+  SharedSession shared;
+  std::promise<void> begun, let_go;
+  auto until = let_go.get_future().share();
+  std::atomic<int> loads{0};
+  shared.load = [&, until](const std::string&) {
+    if (++loads == 1) begun.set_value();
+    until.wait();
+    return LoadedScan{.volume = testing::ball_of_tissue(), .frame = {}};
+  };
+  TestClient client(shared.server.port());
+  const auto before = shared.session.scan();
+  client.send_text(folder_name, "/scans/slow");
+  auto has_begun = begun.get_future();
+  ASSERT_TRUE(shared.comes([&] { return has_begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  modes::Scene own = shared.session.scene();
+  own.name = "the owner's";
+  own.limits.force_n = 1;
+  shared.session.set_scene(own);
+  let_go.set_value();
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scan() != before; }));
+  EXPECT_EQ(loads, 2) << "prepared again, of the owner's scene";
+  EXPECT_EQ(shared.session.scene().name, "the owner's");
+  EXPECT_EQ(shared.session.scene().limits.force_n, 1);
+}
+
+TEST(OpenIgtRequests, FilesAreNamedByClientsOfThisMachineAlone) {
+  const Server::Request near{.client = 1, .from_this_machine = true, .message = {}};
+  const Server::Request far{.client = 1, .from_this_machine = false, .message = {}};
+  EXPECT_NO_THROW(internal::check_file(near, "/scans/liver.nrrd"));
+  EXPECT_THROW(internal::check_file(far, "/scans/liver.nrrd"), Refusal);
+  modes::Scene felt, wanted;
+  felt.structures = {{.name = "liver", .file = "/scans/liver.nrrd"}};
+  wanted.structures = {{.name = "drawn", .file = ""}, {.name = "liver", .file = "/scans/liver.nrrd"}};
+  EXPECT_NO_THROW(internal::check_files(far, wanted, felt)) << "contours name no file, and the liver's is felt already";
+  wanted.structures.push_back({.name = "spleen", .file = "/scans/spleen.nrrd"});
+  EXPECT_THROW(internal::check_files(far, wanted, felt), Refusal);
+  EXPECT_NO_THROW(internal::check_files(near, wanted, felt));
+}
+
+}  // namespace
+}  // namespace palpate::plugin::igtl

@@ -1,0 +1,24 @@
+#include "plugin/paraview/client/model/doubtful_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::plugin {
+
+/// It is corrected where the outline that is felt has left it by a good part of what it was off. An edit that was held
+/// back there, or was made elsewhere, corrects nothing.
+DoubtfulList::Fate DoubtfulList::fate(std::size_t place) const {
+  constexpr double least_mm = 0.3, least_part = 0.5;
+  const io::DoubtfulPlace& one = places_->places[place];
+  const double off_mm = std::abs(outline_ ? outline_(one.position_mm).value_or(0) : 0);
+  if (off_mm > std::max(least_mm, least_part * std::abs(one.mean_mm))) return Fate::corrected;
+  return left_.contains(place) ? Fate::left : Fate::doubtful;
+}
+
+const io::DoubtfulPlace* DoubtfulList::go_to(std::size_t place) {
+  if (!places_ || place >= places_->places.size()) return nullptr;
+  at_ = place;
+  return &places_->places[place];
+}
+
+}  // namespace palpate::plugin
