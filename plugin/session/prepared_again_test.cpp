@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/fields/filtered.h"
@@ -15,6 +17,7 @@
 #include "modes/scene/scene_json.h"
 #include "plugin/session/prepared_scene.h"
 #include "plugin/session/scene_fit.h"
+#include "plugin/testing/opened_files.h"
 #include "plugin/testing/registered_study.h"
 #include "testdata/scan.h"
 
@@ -163,6 +166,43 @@ TEST(PreparedAgain, KeepsTheScanWhileItsStructuresChange) {
   EXPECT_EQ(scan_fields(*first.plan) & io::FieldSet::distance, io::FieldSet::none);
   EXPECT_EQ(scan_fields(*first.plan) | io::FieldSet::distance, first.plan->fields);
   EXPECT_TRUE(registered_of(first).empty());
+}
+
+/// The next frame of a series: its structures are those that were read, but for what edits have read of the frame.
+TEST(PreparedAgain, KeepsStructuresOnTheNextFrameAndReadsNoFile) {
+  const io::internal::TestFolder folder;
+  testing::write_contours(folder / "rt.dcm", "1.1", "7", "Doe^Jane");
+  const VolumePointer volume = odd_ball(9);
+  const auto other = [&](const std::function<void(io::Volume&)>& change) {
+    io::Volume changed = *odd_ball(6);
+    change(changed);
+    return std::make_shared<const io::Volume>(std::move(changed));
+  };
+  modes::Scene scene = testing::scene_of(folder / "rt.dcm");
+  scene.structures[0].edits = {io::AddEdit{{.path_mm = {{10, 0, 9}}, .radius_mm = 4}},
+                               io::ScanEdgeEdit{.center_mm = {10, 0, 9}, .radius_mm = 8, .most_mm = 4},
+                               io::RemoveEdit{{.path_mm = {{-10, 0, 9}}, .radius_mm = 3}}};
+  const PreparedScene first = prepare(scene, volume, half_extent_m);
+  ASSERT_EQ(first.structures.size(), 1U);
+  testing::OpenedFiles opened({folder / ""});
+  const VolumePointer frame = other([](io::Volume&) {});
+  const PreparedScene next = prepare(scene, frame, half_extent_m, {first, scene});
+  EXPECT_TRUE(opened.count().empty());
+  EXPECT_EQ(next.structures[0].before_edits[1], first.structures[0].before_edits[1]);
+  EXPECT_NE(next.structures[0].distance, first.structures[0].distance) << "an edit reads the frame";
+  expect_the_same(next, prepare(scene, frame, half_extent_m), "the next frame");
+  const std::pair<const char*, std::function<void(io::Volume&)>> others[] = {
+      {"a frame of reference", [](io::Volume& v) { v.frame_of_reference_uid = ""; }},
+      {"a patient", [](io::Volume& v) { v.patient_id = "7"; }},
+      {"a name", [](io::Volume& v) { v.patient_name = "Doe^Jane"; }},
+      {"a place", [](io::Volume& v) { v.geometry.slice_positions.front().x += 1e-3; }}};
+  for (const auto& [what, change] : others) {
+    const VolumePointer elsewhere = other(change);
+    opened.count();
+    expect_the_same(prepare(scene, elsewhere, half_extent_m, {first, scene}), prepare(scene, elsewhere, half_extent_m),
+                    what);
+    EXPECT_FALSE(opened.count().empty()) << what;
+  }
 }
 
 /// A scene that reads nothing but its structures can be felt on any scan: distances are no field of the scan's.

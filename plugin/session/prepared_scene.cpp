@@ -76,7 +76,11 @@ PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io:
                          before.scene.gradient_scale_mm == scene.gradient_scale_mm &&
                          before.scene.sampling == scene.sampling;
   std::vector<LoadedStructure> known = before.read_ahead;
-  if (of_scan) known.insert(known.end(), before.felt.structures.begin(), before.felt.structures.end());
+  if (ahead) {
+    const std::vector<LoadedStructure> felt_before =
+        of_scan ? before.felt.structures : carried_over(before.felt.structures, *ahead, *volume);
+    known.insert(known.end(), felt_before.begin(), felt_before.end());
+  }
   felt.structures = load_structures(scene, *felt.plan, volume, known, recorded);
   if (same_scan && same_distances(felt.structures, before.felt.structures)) {
     felt.source = before.felt.source;

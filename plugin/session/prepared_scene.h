@@ -41,7 +41,8 @@ struct Prepared {
   std::vector<LoadedStructure> read_ahead{};  ///< of the scan, for a scene that comes: not read again
 };
 /// The same, but takes the filtered volume and the fields from `felt` if the scene still needs exactly these of this
-/// scan. So a scene that is being edited is ready at once.
+/// scan, and its structures on another frame of the series, too. So a scene that is being edited, and the next frame,
+/// are ready at once.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, const Prepared& before,
                       std::span<const RegisteredStructure> recorded = {});

@@ -9,7 +9,9 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
+#include <variant>
 
 #include "io/errors.h"
 #include "io/structures/outline_change.h"
@@ -158,6 +160,26 @@ const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double r
 }
 
 }  // namespace
+
+std::vector<LoadedStructure> carried_over(const std::vector<LoadedStructure>& structures, const io::Volume& from,
+                                          const io::Volume& to) {
+  const auto whose = [](const io::Volume& volume) {
+    return std::tie(volume.frame_of_reference_uid, volume.patient_id, volume.patient_name);
+  };
+  if (from.frame_of_reference_uid.empty() || whose(from) != whose(to) || !same_place(from.geometry, to.geometry))
+    return {};
+  std::vector<LoadedStructure> carried = structures;
+  for (LoadedStructure& one : carried) {
+    const auto first = std::ranges::find_if(
+        one.edits, [](const io::Edit& edit) { return std::holds_alternative<io::ScanEdgeEdit>(edit); });
+    if (first == one.edits.end()) continue;
+    const auto kept = static_cast<std::size_t>(first - one.edits.begin());
+    one.distance = one.before_edits[kept];
+    one.edits.resize(kept);
+    one.before_edits.resize(kept);
+  }
+  return carried;
+}
 
 bool are_loaded(const modes::Scene& scene, const modes::Plan& plan, const std::vector<LoadedStructure>& before) {
   return std::ranges::all_of(plan.structures, [&](std::size_t n) {

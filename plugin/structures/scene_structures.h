@@ -44,6 +44,11 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
                                              const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});
 
+/// Those of another frame of the scan's series, or of the same scan in other values: without the fields of edits that
+/// read the scan. None where the two do not lie alike, or are not of one patient.
+std::vector<LoadedStructure> carried_over(const std::vector<LoadedStructure>& structures, const io::Volume& from,
+                                          const io::Volume& to);
+
 /// Whether load_structures() finds all that the plan reads among these: it then reads no file and computes no field.
 bool are_loaded(const modes::Scene& scene, const modes::Plan& plan, const std::vector<LoadedStructure>& before);
 

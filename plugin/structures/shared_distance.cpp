@@ -11,6 +11,14 @@
 #include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
+
+bool same_place(const io::Geometry& a, const io::Geometry& b) noexcept {
+  const auto of = [](const io::Geometry& g) {
+    return std::tie(g.dimensions, g.direction_i, g.direction_j, g.spacing_i, g.spacing_j, g.slice_positions);
+  };
+  return of(a) == of(b);
+}
+
 namespace {
 
 struct Kept {
@@ -21,13 +29,6 @@ struct Kept {
   io::Geometry scan;
   std::weak_ptr<const io::DistanceField> distance;
 };
-
-bool same_place(const io::Geometry& a, const io::Geometry& b) {
-  const auto of = [](const io::Geometry& g) {
-    return std::tie(g.dimensions, g.direction_i, g.direction_j, g.spacing_i, g.spacing_j, g.slice_positions);
-  };
-  return of(a) == of(b);
-}
 
 /// Of contours that are part of a scene.
 struct KeptDrawn {

@@ -11,6 +11,9 @@
 
 namespace palpate::plugin {
 
+/// Whether each voxel of one lies where that of the other does, as in two frames of a series.
+bool same_place(const io::Geometry& a, const io::Geometry& b) noexcept;
+
 /// The field with exactly this reach. From any thread. Throws io::DicomError that names the file and the structure.
 std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan,
                                                          double reach_mm);

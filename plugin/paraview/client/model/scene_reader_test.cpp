@@ -1,0 +1,112 @@
+#include "plugin/paraview/client/model/scene_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "modes/scene/scene_json.h"
+#include "plugin/paraview/client/model/session_controller.h"
+#include "plugin/paraview/client/model/testing/application.h"
+#include "plugin/paraview/client/model/testing/made_text.h"
+#include "plugin/testing/opened_files.h"
+#include "plugin/testing/registered_study.h"
+#include "plugin/testing/test_files.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::comes;
+
+/// A study with a structure that a registration puts on the scan.
+struct SceneReading : testing::WithApplication, ::testing::Test {
+  SceneReading() {
+    testing::write_contours(folder / "cube" / "cube.dcm", "1.2", "7", "Doe^Jane");
+    testing::write_registration(folder / "registration" / "moved.dcm");
+    model.open(modes::load_scene("ct-skin-and-bone"));
+    touching.set_scan(testing::registered_scan(), {});
+  }
+  SceneModel::Change keeping_out(double margin_mm) const {
+    return [file = (folder / "cube" / "cube.dcm").string(), margin_mm](modes::Scene& scene) {
+      scene.structures = {{.name = "Cube", .file = file, .segment = "Cube"}};
+      std::erase_if(scene.modes, [](const modes::Mode& mode) { return mode.type == "keep_out"; });
+      modes::Mode mode;
+      mode.type = "keep_out";
+      mode.name = "Keep out of the cube";
+      mode.structure = "Cube";
+      mode.margin_mm = margin_mm;
+      mode.strength_n = modes::TransferFunction({{0, 1}});
+      scene.modes.push_back(mode);
+    };
+  }
+  double felt_margin_mm() const {
+    for (const modes::Mode& mode : touching.live().scene().modes) {
+      if (mode.type == "keep_out") return mode.margin_mm;
+    }
+    return 0;
+  }
+
+  std::filesystem::path folder = testing::fresh_path("read_scenes");
+  MadeText kept;
+  SceneModel model{kept};
+  SessionController touching{model};
+};
+
+/// Whatever changes the scene: the thread that asks goes on at once, and the change is felt when all is read.
+TEST_F(SceneReading, NoChangeReadsFilesOnTheThreadThatAsks) {
+  testing::OpenedFiles opened({folder / "cube", folder / "registration"});
+  const auto edit = [this](double margin_mm) {
+    return [this, margin_mm] { model.edit(QStringLiteral("Keep out"), keeping_out(margin_mm)); };
+  };
+  const std::vector<std::pair<const char*, std::pair<std::function<void()>, double>>> changes{
+      {"a structure that was not read", {edit(2), 2}},
+      {"a margin as far as it was read", {edit(2.5), 2.5}},
+      {"a margin that needs a field of another reach", {edit(6), 6}},
+      {"undo", {[this] { model.undo(); }, 2.5}},
+      {"undo to a scene without it", {[this] { model.undo(), model.undo(); }, 0}},
+      {"redo", {[this] { model.redo(); }, 2}},
+      {"a drag", {[this] { model.drag(keeping_out(11)); }, 11}},
+      {"a script's scene",
+       {[this] {
+          modes::Scene scene = model.scene();
+          keeping_out(15)(scene);
+          kept.put("Scene", modes::to_json(scene));
+        },
+        15}}};
+  for (const auto& [what, change] : changes) {
+    SCOPED_TRACE(what);
+    opened.count();
+    change.first();
+    const bool at_once = felt_margin_mm() == change.second;
+    if (at_once) EXPECT_TRUE(opened.count().empty()) << "it was read while the panel stood still";
+    ASSERT_TRUE(comes([&] { return felt_margin_mm() == change.second; }));
+    EXPECT_FALSE(model.is_waiting());
+    EXPECT_EQ(touching.live().felt().structures.size(), change.second > 0 ? 1U : 0U);
+  }
+}
+
+TEST_F(SceneReading, AFileThatIsGoneRefusesTheChangeAndSaysWhich) {
+  std::filesystem::remove_all(folder / "cube");
+  QString why;
+  model.edit(QStringLiteral("Keep out"), keeping_out(2), [&why](const QString& said) { why = said; });
+  ASSERT_TRUE(comes([&] { return !why.isEmpty(); }));
+  EXPECT_NE(why.toStdString().find("Cube"), std::string::npos) << why.toStdString();
+  EXPECT_EQ(felt_margin_mm(), 0);
+  EXPECT_TRUE(model.scene().structures.empty());
+}
+
+/// Another frame of the scan comes while a structure is read for the one before: it is felt on the new one.
+TEST_F(SceneReading, AChangeThatWaitsIsDoneOnTheFrameThatIsThereThen) {
+  model.edit(QStringLiteral("Keep out"), keeping_out(2));
+  const auto frame = testing::registered_scan();
+  touching.set_scan(frame, {.number = 1, .count = 2});
+  ASSERT_TRUE(comes([&] { return felt_margin_mm() == 2; }));
+  EXPECT_EQ(touching.live().scan(), frame);
+  EXPECT_EQ(touching.live().felt().structures.size(), 1U);
+}
+
+}  // namespace
+}  // namespace palpate::plugin
