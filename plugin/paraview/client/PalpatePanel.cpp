@@ -78,9 +78,9 @@ void PalpatePanel::dropEvent(QDropEvent* event) {
 /// M in a view is the mark button. It is let go wherever the keyboard has gone meanwhile.
 void PalpatePanel::mark_by_key(const QKeyEvent& event) {
   if (event.key() != Qt::Key_M || event.isAutoRepeat()) return;
-  if (event.type() == QEvent::KeyRelease) parts_->touching.let_go_mark();
+  if (event.type() == QEvent::KeyRelease) parts_->session.let_go_mark();
   if (event.type() == QEvent::KeyPress && event.modifiers() == Qt::NoModifier && has_view_keys()) {
-    parts_->touching.press_mark();
+    parts_->session.press_mark();
   }
 }
 
@@ -100,7 +100,7 @@ bool PalpatePanel::correct_by_key(const QKeyEvent& event) {
 
 /// Another program has the keyboard: no key that is let go there comes here.
 void PalpatePanel::let_go_keys() {
-  parts_->touching.let_go_mark();
+  parts_->session.let_go_mark();
   parts_->correction.show_before(false);
   parts_->correction.set_freed(false);
 }
@@ -108,7 +108,7 @@ void PalpatePanel::let_go_keys() {
 bool PalpatePanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ApplicationDeactivate) let_go_keys();
   const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
-  if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->touching.release();
+  if (pressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) parts_->session.release();
   if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {
     mark_by_key(*static_cast<QKeyEvent*>(event));
   }

@@ -10,7 +10,7 @@ void PanelParts::build() {
                        .readers = readers,
                        .views = open_views,
                        .scene = model,
-                       .touching = touching,
+                       .session = session,
                        .correction = correction,
                        .marks = marks,
                        .sharing = sharing},

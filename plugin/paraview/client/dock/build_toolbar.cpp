@@ -49,7 +49,7 @@ void PanelParts::build_toolbar() {
     toolbar->show_volume_cuts(patient && patient->can_cut(), patient && patient->can_crop());
   });
   QObject::connect(toolbar, &ClinicalToolbar::connect_wanted, column->stylus, &StylusSection::connect_or_not);
-  QObject::connect(toolbar, &ClinicalToolbar::release_wanted, &dock, [this] { touching.release(); });
+  QObject::connect(toolbar, &ClinicalToolbar::release_wanted, &dock, [this] { session.release(); });
   QObject::connect(toolbar, &ClinicalToolbar::advanced_wanted, layout, &HostLayout::set_advanced);
   QObject::connect(layout, &HostLayout::advanced_changed, toolbar, &ClinicalToolbar::show_advanced);
   QObject::connect(column->stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
@@ -63,7 +63,7 @@ void PanelParts::ask_picture() {
       ask_file_to_write(&dock, tr("Save a picture of the views"), tr("Pictures (*.png)"), QStringLiteral("png"));
   if (file.isEmpty()) return;
   if (!save_picture(*marked, file)) {
-    emit touching.told(
+    emit session.told(
         words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())),
         true);
   }

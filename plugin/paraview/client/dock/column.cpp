@@ -22,7 +22,7 @@
 
 namespace palpate::plugin {
 
-Column::Column(const Follows& models, const std::function<Eye()>& eye) : strokes_(models.touching) {
+Column::Column(const Follows& models, const std::function<Eye()>& eye) : strokes_(models.session) {
   auto* const content = new QWidget(this);
   auto* const column = new QVBoxLayout(content);
   column->setContentsMargins(6, 2, 6, 2);
@@ -42,7 +42,7 @@ Column::Column(const Follows& models, const std::function<Eye()>& eye) : strokes
   halves->setContentsMargins(0, 0, 0, 0);
   halves->setSpacing(0);
   halves->addWidget(new ColumnScroll(QStringLiteral("palpateScroll"), content, this), 1);
-  halves->addWidget(footer = new Footer(models.touching, models.scene, this));
+  halves->addWidget(footer = new Footer(models.session, models.scene, this));
   connect(footer, &Footer::technical_changed, this, &Column::show_technical);
   show_technical(footer->is_technical());
 }
@@ -61,7 +61,7 @@ Fold* Column::fold(const QString& title, const QString& name, QWidget* section, 
 void Column::build_scan(const Follows& models, QVBoxLayout& column) {
   scan = new ScanSection(models.scans);
   connect(scan, &ScanSection::ras_wanted, this, &Column::ras_wanted);
-  filter = new FilterRow(models.scene, models.touching, models.scans, models.readers, scan);
+  filter = new FilterRow(models.scene, models.session, models.scans, models.readers, scan);
   scan->layout()->addWidget(filter);
   scan_fold = fold(tr("Scan"), QStringLiteral("palpateScanSection"), scan, true, column);
   column.addWidget(&scan->notes());
@@ -73,7 +73,7 @@ QWidget* Column::build_tissues(const Follows& models) {
   column->setContentsMargins(0, 0, 0, 0);
   tissues = new TissuesSection(models.scene, box);
   column->addWidget(tissues);
-  study = new TissueStudy(models.scene, models.touching, box);
+  study = new TissueStudy(models.scene, models.session, box);
   connect(study, &TissueStudy::studied, this,
           [this](const auto& found, const modes::Scene& proposed, const QString& unit) {
             tissues->set_proposed(proposed);
@@ -97,22 +97,22 @@ QWidget* Column::build_tissues(const Follows& models) {
 }
 
 void Column::build_others(const Follows& models, const std::function<Eye()>& eye, QVBoxLayout& column) {
-  structures = new StructuresSection(models.views, models.scene, models.touching, models.correction);
+  structures = new StructuresSection(models.views, models.scene, models.session, models.correction);
   auto* const structures_fold =
       fold(tr("Structures"), QStringLiteral("palpateStructuresSection"), structures, false, column);
   connect(structures, &StructuresSection::listed, this,
           [this, structures_fold] { structures_fold->set_note(structures->in_words()); });
-  stylus = new StylusSection(models.touching, models.scene, eye);
+  stylus = new StylusSection(models.session, models.scene, eye);
   fold(tr("Stylus"), QStringLiteral("palpateStylusSection"), stylus, true, column);
-  marks = new MarksSection(models.marks, models.touching);
+  marks = new MarksSection(models.marks, models.session);
   marks_fold = fold(tr("Marks"), QStringLiteral("palpateMarksSection"), marks, false, column);
-  curves = new CurvesSection(models.scene, models.touching, strokes_);
+  curves = new CurvesSection(models.scene, models.session, strokes_);
   fold(tr("Transfer function"), QStringLiteral("palpateCurvesSection"), curves, false, column);
-  modes = new ModesSection(models.scene, models.touching);
+  modes = new ModesSection(models.scene, models.session);
   fold(tr("Modes"), QStringLiteral("palpateModesSection"), modes, false, column);
-  profile = new ProfileSection(models.views, models.touching, models.scene, strokes_);
+  profile = new ProfileSection(models.views, models.session, models.scene, strokes_);
   fold(tr("Force profile"), QStringLiteral("palpateProfileSection"), profile, false, column);
-  recordings = new RecordingsSection(models.views, models.touching);
+  recordings = new RecordingsSection(models.views, models.session);
   recordings_fold = fold(tr("Recordings"), QStringLiteral("palpateRecordingsSection"), recordings, false, column);
   auto* const shared = new SharingSection(models.sharing);
   auto* const shared_fold = fold(tr("3D Slicer"), QStringLiteral("palpateSharingSection"), shared, false, column);

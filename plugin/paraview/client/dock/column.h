@@ -42,7 +42,7 @@ class Column : public QWidget {
     ScanPipeline& readers;
     OpenViews& views;
     SceneModel& scene;
-    SessionController& touching;
+    SessionController& session;
     CorrectionModel& correction;
     MarksModel& marks;
     SharingModel& sharing;

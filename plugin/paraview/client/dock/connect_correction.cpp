@@ -35,8 +35,8 @@ void PanelParts::connect_correction() {
     readers.views().show_point(place.position_mm);
     // A hand that holds nothing yet goes along, and stays outside.
     constexpr double before_mm = 5;
-    if (touching.has_simulated() && !touching.last().feels) {
-      touching.move_hand(place.position_mm + before_mm * place.normal);
+    if (session.has_simulated() && !session.last().feels) {
+      session.move_hand(place.position_mm + before_mm * place.normal);
     }
   });
   QObject::connect(&column->structures->correct_box(), &CorrectBox::save_wanted, &dock, [this] { save_outline(); });

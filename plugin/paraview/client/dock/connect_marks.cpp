@@ -21,7 +21,7 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_marks() {
-  QObject::connect(&touching, &SessionController::marked, &dock,
+  QObject::connect(&session, &SessionController::marked, &dock,
                    [this](const MarkMade& made) { correction.structure() ? draw_felt(made) : marks.add(made); });
   QObject::connect(&marks, &MarksModel::changed, &dock, [this] { layers.marks.refresh(); });
   QObject::connect(&marks, &MarksModel::added, &dock, [this] { column->marks_fold->set_open(true); });

@@ -24,10 +24,10 @@ namespace palpate::plugin {
 
 void PanelParts::connect_scan() {
   QObject::connect(&scans, &ScanModel::leaving, &dock, [this] {
-    touching.release();  // before another scan takes its place
+    session.release();  // before another scan takes its place
     leave_views();
   });
-  QObject::connect(&scans, &ScanModel::out_of_reach, &dock, [this](const QString& why) { touching.set_no_scan(why); });
+  QObject::connect(&scans, &ScanModel::out_of_reach, &dock, [this](const QString& why) { session.set_no_scan(why); });
   QObject::connect(&scans, &ScanModel::scan_shown, &dock,
                    [this](const ScanHandle& handle, Brought brought) { show_scan(handle, brought); });
   QObject::connect(&scans, &ScanModel::frame_shown, &dock, [this](const ScanHandle& handle) { show_frame(handle); });
@@ -40,16 +40,16 @@ void PanelParts::connect_scan() {
 void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   if (!pqActiveObjects::instance().activeServer()) return;
   const bool restored = brought != Brought::by_opening && kept.is_open();
-  touching.release();
+  session.release();
   // Before the scene: what is chosen here is of the scan before.
   looks.begin_scan();
   if (!restored) {
     modes::Scene scene = scene_for(handle.scene, *handle.volume);
     scene.workspace.fit = true;
-    touching.expect_scan();  // the scene is for this scan, not for the last one
+    session.expect_scan();  // the scene is for this scan, not for the last one
     model.open(scene);
   }
-  touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
+  session.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
   if (brought != Brought::by_undo) model.forget_steps();
   column->tissues->forget_scan(handle);
   if (restored && brought == Brought::by_state) column->tissues->set_restored();
@@ -61,7 +61,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   column->filter->refresh();
   layers.draw_boundaries();
   looks.restore(restored);
-  touching.begin_outside();
+  session.begin_outside();
   show_structures(handle);
   note_scan(handle);
   column->scan_fold->set_open(false);
@@ -71,7 +71,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
 }
 
 void PanelParts::show_frame(const ScanHandle& handle) {
-  touching.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
+  session.set_scan(handle.volume, {.number = handle.frame, .count = handle.frames});
   column->structures->set_frame(handle.volume);
   layers.flow.set_volume(handle.volume);
   looks.show_frame_values();
@@ -87,7 +87,7 @@ void PanelParts::note_scan(const ScanHandle& handle) {
 
 /// What a state file has restored is taken over: scan, scene, marks and views, as if the program had begun with it.
 void PanelParts::adopt_state() {
-  touching.release();
+  session.release();
   const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
   pqPipelineSource* reader = nullptr;
   pqPipelineSource* scene = nullptr;
@@ -99,7 +99,7 @@ void PanelParts::adopt_state() {
   if (!reader && !scene) return;
   if (reader) {
     leave_views();
-    touching.expect_scan();
+    session.expect_scan();
     marks.forget();
   }
   kept.replace(scene);
@@ -110,12 +110,12 @@ void PanelParts::adopt_state() {
 void PanelParts::leave_server() {
   const QString kept_in = guard.recover();
   if (remote_server()) {
-    const bool records = touching.live().recording().has_value();
+    const bool records = session.live().recording().has_value();
     leave(records ? words(say("left-the-server-recording")) : words(say("left-the-server")));
   } else {
     const QString why = words(say("paraview-session-ended"));
     // With a stylus that is held the scan stays as it was felt, without a force, until another takes its place.
-    touching.live().is_connected() ? touching.keep_off(why) : touching.set_no_scan(why);
+    session.live().is_connected() ? session.keep_off(why) : session.set_no_scan(why);
     scans.lose_server();
   }
   if (!kept_in.isEmpty()) emit scans.told(kept_in, true);
@@ -125,9 +125,9 @@ void PanelParts::leave_server() {
 void PanelParts::leave(const QString& why) {
   if (layers.is_paused()) return;  // what follows may ask the lost server, which tells that it is lost
   layers.pause(true);
-  const bool held = touching.live().is_connected();
-  touching.set_no_scan({});
-  if (held) emit touching.told(why, true);  // before the views, which may find that their server does not answer
+  const bool held = session.live().is_connected();
+  session.set_no_scan({});
+  if (held) emit session.told(why, true);  // before the views, which may find that their server does not answer
   scans.lose_server();
   layers.pause(false);
 }

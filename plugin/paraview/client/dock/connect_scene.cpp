@@ -13,7 +13,7 @@ void PanelParts::connect_scene() {
   QObject::connect(column, &Column::boundaries_wanted, &dock, [this](bool on) { layers.boundaries.set_visible(on); });
   QObject::connect(column, &Column::crosshair_wanted, &dock, [this](bool on) { layers.crosshair.set_visible(on); });
   QObject::connect(column->profile, &ProfileSection::picking, &dock, [this](bool on) {
-    touching.keep_mouse_off(on);
+    session.keep_mouse_off(on);
     if (on) looks.read_opacity();  // it may have been edited in ParaView since
     strokes->give_to_profile(on);
   });

@@ -29,38 +29,38 @@ namespace palpate::plugin {
 void PanelParts::connect_session() {
   QObject::connect(column->stylus, &StylusSection::stylus_wanted, &dock, [this] {
     SCOPED_UNDO_EXCLUDE();
-    if (touching.last().is_seen()) readers.views().show_point(touching.last().proxy_mm);
+    if (session.last().is_seen()) readers.views().show_point(session.last().proxy_mm);
   });
   readers.views().set_leafed([this] { column->stylus->pause_following(); });
-  touching.set_start([this](const device::Specification& device) { return start_of(device); });
-  QObject::connect(&touching, &SessionController::recorded, column->recordings, [this](const QString& file) {
+  session.set_start([this](const device::Specification& device) { return start_of(device); });
+  QObject::connect(&session, &SessionController::recorded, column->recordings, [this](const QString& file) {
     column->recordings_fold->set_open(true);
     column->recordings->open(file);
   });
   QObject::connect(&sharing, &SharingModel::folder_wanted, &dock,
                    [this](const QString& folder) { column->scan->open(folder.toStdString()); });
-  QObject::connect(&touching, &SessionController::looked, &dock,
+  QObject::connect(&session, &SessionController::polled, &dock,
                    [this, followed = std::uint64_t{0}](const SessionStatus& seen) mutable {
                      // A recording that stands still does not keep the slices from being leafed through.
                      const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
                      if (!layers.is_paused()) follow_stylus(seen, moved);
                    });
-  QObject::connect(&touching, &SessionController::connection_changed, &dock, [this] {
+  QObject::connect(&session, &SessionController::connection_changed, &dock, [this] {
     column->modes->refresh();
-    servers.be_attentive(touching.live().is_connected());
+    servers.be_attentive(session.live().is_connected());
   });
   // The session ends before ParaView goes, and before a server takes the views away.
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, &dock, [this] {
-    QObject::disconnect(&touching, &SessionController::recorded, column->recordings,
+    QObject::disconnect(&session, &SessionController::recorded, column->recordings,
                         nullptr);  // nobody looks at it any more
     sharing.turn_off();
-    touching.disconnect_stylus();
+    session.disconnect_stylus();
   });
 }
 
 void PanelParts::follow_stylus(const SessionStatus& seen, bool moved) {
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
-  if (seen.connected) touching.keep_off(scans.why_not_felt());
+  if (seen.connected) session.keep_off(scans.why_not_felt());
   name_felt();
   if (seen.is_seen() && moved && column->stylus->slices_follow()) {
     const auto& held = correction.held_in();  // its view shows it, wherever the stylus is
@@ -83,7 +83,7 @@ void PanelParts::name_felt() {
   const QStringList others = readers.others_shown();
   const QString through = column->filter->in_words();
   const QString felt =
-      (touching.last().feels ? tr("Felt: %1. Scene: %2.") : tr("Open: %1. Scene: %2."))
+      (session.last().feels ? tr("Felt: %1. Scene: %2.") : tr("Open: %1. Scene: %2."))
           .arg(through.isEmpty() ? handle.in_words() : handle.in_words() + QStringLiteral(", ") + through,
                column->tissues->scene_in_words());
   const QString beside = tr("Also shown, not felt: %1.").arg(others.join(QStringLiteral(", ")));
@@ -92,7 +92,7 @@ void PanelParts::name_felt() {
 
 /// In sight, in reach and outside of anything felt.
 glm::dvec3 PanelParts::start_of(const device::Specification& of) {
-  const LiveSession& live = touching.live();
+  const LiveSession& live = session.live();
   const auto plan = live.plan();
   const auto& volume = live.felt_scan();
   const auto in_reach = [&](const glm::dvec3& place) {
@@ -105,7 +105,7 @@ glm::dvec3 PanelParts::start_of(const device::Specification& of) {
       [this](const glm::dvec3& place) { return layers.stylus.shows(place); });
   if (!start.outside) {
     QMetaObject::invokeMethod(
-        &dock, [this] { emit touching.told(words(say("no-place-outside-the-patient")), true); }, Qt::QueuedConnection);
+        &dock, [this] { emit session.told(words(say("no-place-outside-the-patient")), true); }, Qt::QueuedConnection);
   }
   return start.place_mm;
 }

@@ -22,9 +22,9 @@ void PanelParts::show_structures(const ScanHandle& handle) {
   column->structures->set_scan(handle.volume, {});
   served.get(reader, [this, handle](const auto& files, const QString& said) {
     column->structures->add(files, said);
-    if (touching.live().scan()) return;
+    if (session.live().scan()) return;
     // A state's scene, which names a structure that was not here before.
-    emit touching.told({}, false);
+    emit session.told({}, false);
     show_frame(handle);
   });
 }

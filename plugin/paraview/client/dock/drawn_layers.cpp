@@ -6,16 +6,16 @@
 
 namespace palpate::plugin {
 
-DrawnLayers::DrawnLayers(OpenViews& views, SessionController& touching, SceneModel& scene, const MarksModel& shown)
+DrawnLayers::DrawnLayers(OpenViews& views, SessionController& session, SceneModel& scene, const MarksModel& shown)
     : flow(views),
       boundaries(views),
       crosshair(views),
       marks(views, [&shown]() -> const Marks& { return shown.marks(); }),
-      stylus(views, touching, scene),
-      touching_(touching),
+      stylus(views, session, scene),
+      session_(session),
       scene_(scene),
-      watch_(views, [&touching](double seconds) {
-        touching.note_work(QCoreApplication::translate("DrawnLayers", "drawing"), seconds);
+      watch_(views, [&session](double seconds) {
+        session.note_work(QCoreApplication::translate("DrawnLayers", "drawing"), seconds);
       }) {
   // As soon as others had their turn.
   next_turn_.setSingleShot(true);
@@ -24,7 +24,7 @@ DrawnLayers::DrawnLayers(OpenViews& views, SessionController& touching, SceneMod
 }
 
 void DrawnLayers::draw_boundaries(Pace pace) {
-  const LiveSession& live = touching_.live();
+  const LiveSession& live = session_.live();
   boundaries.set_felt(live.felt_scan(), scene_.scene(), live.plan(), pace);
 }
 
@@ -37,7 +37,7 @@ void DrawnLayers::forget_scan() {
 void DrawnLayers::draw_stylus() {
   if (paused_) return;
   SCOPED_UNDO_EXCLUDE();  // what the stylus moves is not what is undone
-  if (stylus.show(touching_.last())) next_turn_.start();
+  if (stylus.show(session_.last())) next_turn_.start();
 }
 
 }  // namespace palpate::plugin

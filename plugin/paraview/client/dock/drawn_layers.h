@@ -19,7 +19,7 @@ namespace palpate::plugin {
 
 class DrawnLayers {
  public:
-  DrawnLayers(OpenViews& views, SessionController& touching, SceneModel& scene, const MarksModel& marks);
+  DrawnLayers(OpenViews& views, SessionController& session, SceneModel& scene, const MarksModel& marks);
   DrawnLayers(const DrawnLayers&) = delete;
   DrawnLayers& operator=(const DrawnLayers&) = delete;
 
@@ -42,7 +42,7 @@ class DrawnLayers {
   FreeMemory memory;
 
  private:
-  SessionController& touching_;
+  SessionController& session_;
   SceneModel& scene_;
   DrawingWatch watch_;
   QTimer next_turn_;  // of a picture that comes in turns

@@ -44,10 +44,10 @@ struct PanelParts {
   /// `window`: ParaView's.
   PanelParts(QDockWidget& panel, QMainWindow& window)
       : dock(panel),
-        touching(model, &panel),
-        layers(open_views, touching, model, marks),
+        session(model, &panel),
+        layers(open_views, session, model, marks),
         looks(readers, layers, kept, &window),
-        guard(unsaved, scans, touching, window) {}
+        guard(unsaved, scans, session, window) {}
 
   void build();
   // build_toolbar.cpp
@@ -97,8 +97,8 @@ struct PanelParts {
   MarksModel marks{kept};
   UnsavedWork unsaved{model, marks};
   CorrectionModel correction{model};
-  SessionController touching;
-  SharingModel sharing{touching, model, marks};
+  SessionController session;
+  SharingModel sharing{session, model, marks};
   DrawnLayers layers;
   ServerWatch servers;
   ServerStructures served;

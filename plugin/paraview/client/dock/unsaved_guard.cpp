@@ -24,8 +24,8 @@ QString now_in_a_name() {
 
 }  // namespace
 
-UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& touching, QMainWindow& window)
-    : work_(work), touching_(touching), window_(window) {
+UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& session, QMainWindow& window)
+    : work_(work), session_(session), window_(window) {
   auto* const application = pqApplicationCore::instance();
   connect(application, &pqApplicationCore::stateSaved, this, [this] {
     if (!saving_) work_.note_state_saved();
@@ -72,7 +72,7 @@ bool UnsavedGuard::write_state(const QString& file) {
   if (written) {
     work_.note_state_saved();
   } else {
-    emit touching_.told(
+    emit session_.told(
         words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())),
         true);
   }

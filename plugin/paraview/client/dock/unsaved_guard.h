@@ -19,7 +19,7 @@ class UnsavedGuard : public QObject {
   Q_OBJECT
 
  public:
-  UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& touching, QMainWindow& window);
+  UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& session, QMainWindow& window);
 
   /// ParaView's session ends, and nobody was asked: by a script, or by another server. What is to be told of it; empty:
   /// nothing was kept.
@@ -31,7 +31,7 @@ class UnsavedGuard : public QObject {
   bool write_state(const QString& file);
 
   UnsavedWork& work_;
-  SessionController& touching_;
+  SessionController& session_;
   QMainWindow& window_;
   bool saving_ = false;  // a state file, which may fail
   bool ending_ = false;  // the program, which has asked

@@ -27,7 +27,7 @@ struct SceneReading : testing::WithApplication, ::testing::Test {
     testing::write_contours(folder / "cube" / "cube.dcm", "1.2", "7", "Doe^Jane");
     testing::write_registration(folder / "registration" / "moved.dcm");
     model.open(modes::load_scene("ct-skin-and-bone"));
-    touching.set_scan(testing::registered_scan(), {});
+    session.set_scan(testing::registered_scan(), {});
   }
   SceneModel::Change keeping_out(double margin_mm) const {
     return [file = (folder / "cube" / "cube.dcm").string(), margin_mm](modes::Scene& scene) {
@@ -43,7 +43,7 @@ struct SceneReading : testing::WithApplication, ::testing::Test {
     };
   }
   double felt_margin_mm() const {
-    for (const modes::Mode& mode : touching.live().scene().modes) {
+    for (const modes::Mode& mode : session.live().scene().modes) {
       if (mode.type == "keep_out") return mode.margin_mm;
     }
     return 0;
@@ -52,7 +52,7 @@ struct SceneReading : testing::WithApplication, ::testing::Test {
   std::filesystem::path folder = testing::fresh_path("read_scenes");
   MadeText kept;
   SceneModel model{kept};
-  SessionController touching{model};
+  SessionController session{model};
 };
 
 /// Whatever changes the scene: the thread that asks goes on at once, and the change is felt when all is read.
@@ -84,7 +84,7 @@ TEST_F(SceneReading, NoChangeReadsFilesOnTheThreadThatAsks) {
     if (at_once) EXPECT_TRUE(opened.count().empty()) << "it was read while the panel stood still";
     ASSERT_TRUE(comes([&] { return felt_margin_mm() == change.second; }));
     EXPECT_FALSE(model.is_waiting());
-    EXPECT_EQ(touching.live().felt().structures.size(), change.second > 0 ? 1U : 0U);
+    EXPECT_EQ(session.live().felt().structures.size(), change.second > 0 ? 1U : 0U);
   }
 }
 
@@ -102,10 +102,10 @@ TEST_F(SceneReading, AFileThatIsGoneRefusesTheChangeAndSaysWhich) {
 TEST_F(SceneReading, AChangeThatWaitsIsDoneOnTheFrameThatIsThereThen) {
   model.edit(QStringLiteral("Keep out"), keeping_out(2));
   const auto frame = testing::registered_scan();
-  touching.set_scan(frame, {.number = 1, .count = 2});
+  session.set_scan(frame, {.number = 1, .count = 2});
   ASSERT_TRUE(comes([&] { return felt_margin_mm() == 2; }));
-  EXPECT_EQ(touching.live().scan(), frame);
-  EXPECT_EQ(touching.live().felt().structures.size(), 1U);
+  EXPECT_EQ(session.live().scan(), frame);
+  EXPECT_EQ(session.live().felt().structures.size(), 1U);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace palpate::plugin {
 namespace {
 
 constexpr int heart_ms = 100;
-constexpr int look_ms = 33;
+constexpr int poll_ms = 33;
 constexpr std::uint32_t clutch_button = 1, release_button = 4;  // between them mark_button
 
 void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
@@ -35,10 +35,10 @@ SessionController::SessionController(SceneModel& model, QObject* parent) : QObje
   model.set_read(
       [this](const modes::Scene& scene, auto done) { return !expects_scan_ && reader_.read(scene, std::move(done)); });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
-  connect(&looks_, &QTimer::timeout, this, [this] { look(); });
-  looks_.setTimerType(Qt::PreciseTimer);
+  connect(&polls_, &QTimer::timeout, this, [this] { poll(); });
+  polls_.setTimerType(Qt::PreciseTimer);
   heart_.start(heart_ms);
-  looks_.start(look_ms);
+  polls_.start(poll_ms);
 }
 
 SessionController::~SessionController() {
@@ -54,7 +54,7 @@ void SessionController::set_no_scan(const QString& why) {
   live_.set_scan(nullptr);
   hand_.hold(nullptr);
   parted_.reset();
-  look();
+  poll();
   emit connection_changed();
   tell_recorded(recorded_now);
 }
@@ -104,7 +104,7 @@ void SessionController::connect_stylus(const StylusChoice& choice) {
         make_stylus({.device = choice.device, .firmware = choice.firmware, .settings = choice.settings});
     hand_.hold(std::dynamic_pointer_cast<device::SimulatedStylus>(stylus));
     parted_.reset();
-    look_ = {};  // of a recording, perhaps
+    status_ = {};  // of a recording, perhaps
     ticks_.restart();
     mark_button_.forget();
     if (live_.plan()) {
@@ -127,7 +127,7 @@ void SessionController::disconnect_stylus() {
   const auto recorded_now = live_.disconnect();
   hand_.hold(nullptr);
   parted_.reset();
-  look();
+  poll();
   emit connection_changed();
   tell_recorded(recorded_now);
 }
@@ -149,7 +149,7 @@ void SessionController::feel() {
 
 bool SessionController::feels() const {
   return live_.is_connected() && live_.start() == LiveSession::Start::feeling &&
-         fault_of(look_.tick) == device::Fault::none;
+         fault_of(status_.tick) == device::Fault::none;
 }
 
 void SessionController::release() {
@@ -166,7 +166,7 @@ void SessionController::keep_off(const QString& why) {
 void SessionController::clear_fault() {
   release();
   // A device in fault stays so until it is opened again; another fault is only forgotten.
-  const auto state = static_cast<device::State>(look_.tick.stylus_state);
+  const auto state = static_cast<device::State>(status_.tick.stylus_state);
   const bool lost = live_.is_connected() && (state == device::State::fault || state == device::State::disconnected);
   if (!lost) {
     live_.clear_fault();
@@ -180,7 +180,7 @@ void SessionController::clear_fault() {
     hand_.hold(nullptr);
     problem = QString::fromUtf8(error.what());
   }
-  look();
+  poll();
   emit connection_changed();
   emit told(problem, true);
 }
@@ -193,7 +193,7 @@ void SessionController::record(const std::string& file) {
   QString problem;
   try {
     mark_button_.forget();
-    if (hand_.holds()) move_hand(look_.probe_mm);  // where the new session finds it
+    if (hand_.holds()) move_hand(status_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
     ticks_.count_anew();
@@ -230,13 +230,13 @@ void SessionController::press_mark() {
 }
 
 FeltMark SessionController::mark_here() const {
-  TickRecord pressed = look_.tick;
+  TickRecord pressed = status_.tick;
   pressed.buttons = mark_button;
   MarkPresses once;
   once.take({.tick = pressed,
              .time_s = pressed.time_s,
-             .proxy_mm = look_.proxy_mm,
-             .shares = look_.shares,
+             .proxy_mm = status_.proxy_mm,
+             .shares = status_.shares,
              .scene = live_.scene()});
   return std::get<FeltMark>(*once.finish());
 }
@@ -246,20 +246,20 @@ void SessionController::follow_marks() {
   const auto proxy_mm = [this](const TickRecord& tick) {
     return workspace_.at(tick.change_part).to_patient(vector_of(tick.proxy_m));
   };
-  if (const auto made = mark_button_.follow(look_.tick, look_.shares, live_.scene(), proxy_mm)) emit marked(*made);
+  if (const auto made = mark_button_.follow(status_.tick, status_.shares, live_.scene(), proxy_mm)) emit marked(*made);
 }
 
 void SessionController::clutch() {
   if (!live_.is_connected() || parted_) return;
   mark_button_.forget();
-  parted_ = Parted{.at_mm = look_.probe_mm, .felt = feels()};
+  parted_ = Parted{.at_mm = status_.probe_mm, .felt = feels()};
   live_.release();
 }
 
 void SessionController::unclutch(const glm::dmat3& rotation) {
   const auto parted = std::exchange(parted_, std::nullopt);
   if (!parted) return;
-  const glm::dvec3 hand_m = vector_of(look_.tick.probe_m);
+  const glm::dvec3 hand_m = vector_of(status_.tick.probe_m);
   const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = workspace_.now().mm_per_m};
   const glm::dvec3 center = parted->at_mm - held.to_patient(hand_m);
   const modes::WorkspaceSettings settings{
@@ -270,7 +270,7 @@ void SessionController::unclutch(const glm::dmat3& rotation) {
 }
 
 bool SessionController::may_remap() const {
-  return !live_.is_connected() || parted_ || look_.force_n == 0;
+  return !live_.is_connected() || parted_ || status_.force_n == 0;
 }
 
 void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
@@ -280,55 +280,55 @@ void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
   if ((let & clutch_button) != 0) emit clutch_button_let_go();
 }
 
-void SessionController::look() {
+void SessionController::poll() {
   const TickRing* const ring = live_.ticks();
-  look_.connected = live_.is_connected();
-  look_.clutched = is_clutched();
-  look_.kept_off = kept_off_;
-  look_.peak_n = 0;
-  if (!look_.connected) {
-    look_ = instead_ ? instead_() : SessionStatus{};
-    emit looked(look_);
+  status_.connected = live_.is_connected();
+  status_.clutched = is_clutched();
+  status_.kept_off = kept_off_;
+  status_.peak_n = 0;
+  if (!status_.connected) {
+    status_ = instead_ ? instead_() : SessionStatus{};
+    emit polled(status_);
     return;
   }
   std::vector<double> ticks;
-  const NewTicks::Buttons buttons = ticks_.read(*ring, look_.tick, look_.shares, [&] {
-    look_.fresh = true;
-    look_.peak_n = std::max(look_.peak_n, glm::length(vector_of(look_.tick.sent_n)));
-    ticks.push_back(tick_us(look_.tick));
+  const NewTicks::Buttons buttons = ticks_.read(*ring, status_.tick, status_.shares, [&] {
+    status_.fresh = true;
+    status_.peak_n = std::max(status_.peak_n, glm::length(vector_of(status_.tick.sent_n)));
+    ticks.push_back(tick_us(status_.tick));
     follow_marks();
   });
-  if (!ticks.empty()) look_.tick_us = io::quantile(std::move(ticks), 0.5);
-  const TickRecord& tick = look_.tick;
+  if (!ticks.empty()) status_.tick_us = io::quantile(std::move(ticks), 0.5);
+  const TickRecord& tick = status_.tick;
   const bool is_silent = fault_of(tick) == device::Fault::commander_silent;
-  if (!is_silent) look_.held_up.clear();
-  if (is_silent && look_.held_up.isEmpty()) look_.held_up = slow_.in_words();
-  look_.feels = feels();
-  look_.workspace = workspace_.at(tick.change_part);
-  look_.probe_mm = parted_ ? parted_->at_mm : look_.workspace.to_patient(vector_of(tick.probe_m));
-  look_.proxy_mm = parted_ ? parted_->at_mm : look_.workspace.to_patient(vector_of(tick.proxy_m));
-  look_.force_n = glm::length(vector_of(tick.sent_n));
-  look_.missed = live_.missed();
-  look_.homing = homing_;
-  look_.trouble = QString::fromStdString(live_.trouble());
-  look_.orientation.reset();
+  if (!is_silent) status_.held_up.clear();
+  if (is_silent && status_.held_up.isEmpty()) status_.held_up = slow_.in_words();
+  status_.feels = feels();
+  status_.workspace = workspace_.at(tick.change_part);
+  status_.probe_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.probe_m));
+  status_.proxy_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.proxy_m));
+  status_.force_n = glm::length(vector_of(tick.sent_n));
+  status_.missed = live_.missed();
+  status_.homing = homing_;
+  status_.trouble = QString::fromStdString(live_.trouble());
+  status_.orientation.reset();
   if (const auto turned = live_.orientation()) {
-    look_.orientation = glm::normalize(glm::quat_cast(look_.workspace.rotation) * *turned);
+    status_.orientation = glm::normalize(glm::quat_cast(status_.workspace.rotation) * *turned);
   }
-  look_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), tick.value);
+  status_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), tick.value);
   // A tick of before the last edit may tell of others.
-  look_.nearest.reset();
+  status_.nearest.reset();
   if (const auto plan = live_.plan(); plan && tick.scene_epoch == live_.epoch()) {
-    look_.nearest = nearest_structure(tick, model_.scene(), plan->structures);
+    status_.nearest = nearest_structure(tick, model_.scene(), plan->structures);
   }
   const auto held =
-      held_boundary(look_.shares, live_.felt(), live_.scene(), look_.proxy_mm, look_.probe_mm, sites_.get());
-  look_.held = held ? in_words(*held) : "";
+      held_boundary(status_.shares, live_.felt(), live_.scene(), status_.proxy_mm, status_.probe_mm, sites_.get());
+  status_.held = held ? in_words(*held) : "";
   // On an edge the value is one of neither side: half-way from air to muscle it is fat's.
-  if (held && live_.scene().modes[held->mode].structure.empty()) look_.tissue = "between tissues";
+  if (held && live_.scene().modes[held->mode].structure.empty()) status_.tissue = "between tissues";
   obey_buttons(buttons.pressed, buttons.let);
-  hand_.give_way(tick, look_.force_n);
-  emit looked(look_);
+  hand_.give_way(tick, status_.force_n);
+  emit polled(status_);
 }
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs the haptic session for the panel while a stylus is held, and emits looked() thirty times a second.
+/// Runs the haptic session for the panel while a stylus is held, and emits polled() thirty times a second.
 
 #include <QObject>
 #include <QString>
@@ -43,8 +43,8 @@ struct SessionStatus {
   std::string held;                         ///< the boundary that holds the proxy, in words; empty where none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
   double force_n = 0;                       ///< that the device was fed, in the last tick
-  double peak_n = 0;                        ///< the largest since the last look
-  double tick_us = 0;                       ///< median since the last look
+  double peak_n = 0;                        ///< the largest since the last poll
+  double tick_us = 0;                       ///< median since the last poll
   std::uint64_t missed = 0;                 ///< since the stylus was connected
   bool clutched = false;
   bool feels = false;                         ///< forces were turned on, and not turned off since
@@ -84,7 +84,7 @@ class SessionController : public QObject {
   const QString& why_no_scan() const { return why_no_scan_; }
   const LiveSession& live() const { return live_; }
   /// The most recent status.
-  const SessionStatus& last() const { return look_; }
+  const SessionStatus& last() const { return status_; }
 
   /// As LiveSession::set_clock(). Virtual so that the tests' plug-in reaches it, which is not linked with this one.
   virtual void set_clock(LiveSession::MakeClock make) { live_.set_clock(std::move(make)); }
@@ -121,14 +121,14 @@ class SessionController : public QObject {
   /// Whether the mapping may change: not while the hand feels something, because it would be thrown.
   bool may_remap() const;
 
-  /// What is looked at while no stylus is held.
-  void show_instead(std::function<SessionStatus()> look) { instead_ = std::move(look); }
+  /// What the status is while no stylus is held.
+  void show_instead(std::function<SessionStatus()> status) { instead_ = std::move(status); }
 
   // The simulated stylus' hand, for mouse and keyboard.
   bool has_simulated() const { return hand_.holds() && live_.is_connected(); }
   void move_hand(const glm::dvec3& patient_mm) { hand_.move(patient_mm, workspace_.now()); }
   /// Where the hand wants to be, mm, patient space: where it was last put, or else where the stylus is.
-  glm::dvec3 hand_mm() const { return hand_.place_mm().value_or(look_.probe_mm); }
+  glm::dvec3 hand_mm() const { return hand_.place_mm().value_or(status_.probe_mm); }
   /// The simulated hand relaxes until nothing pushes it.
   void let_go() { hand_.let_go(); }
   /// True: the mouse is used for something else, and does not take the stylus.
@@ -138,7 +138,7 @@ class SessionController : public QObject {
  signals:
   /// The stylus' clutch button was released. The stylus views unclutch, because they know how they are turned.
   void clutch_button_let_go();
-  void looked(const palpate::plugin::SessionStatus& look);
+  void polled(const palpate::plugin::SessionStatus& status);
   void connection_changed();
   void told(const QString& message, bool problem);
   /// What a press of the mark button made; it has no name yet.
@@ -152,8 +152,8 @@ class SessionController : public QObject {
   void tell_recorded(const std::optional<RecorderStatus>& status);
   void commit(const modes::Scene& scene, Pace pace);
   void follow_workspace();
-  void look();
-  /// Those that were pressed and those that were let go since the last look.
+  void poll();
+  /// Those that were pressed and those that were let go since the last poll.
   void obey_buttons(std::uint32_t pressed, std::uint32_t let);
   void follow_marks();
 
@@ -174,12 +174,12 @@ class SessionController : public QObject {
   bool expects_scan_ = false;
   QString kept_off_;
   std::function<glm::dvec3(const device::Specification&)> start_;
-  SessionStatus look_;
+  SessionStatus status_;
   std::shared_ptr<const modes::SiteMap> sites_;
   SlowWork slow_;
   std::function<SessionStatus()> instead_;
   QString recording_to_;
-  QTimer heart_, looks_;
+  QTimer heart_, polls_;
   SceneReader reader_{live_};  // last: its thread is to end before the session
 };
 

@@ -21,26 +21,26 @@ using testing::comes;
 
 struct RecordingOfAController : testing::WithApplication, ::testing::Test {
   RecordingOfAController() {
-    touching.set_clock([](double period_s) { return std::make_unique<testing::UnhurriedClock>(period_s); });
+    session.set_clock([](double period_s) { return std::make_unique<testing::UnhurriedClock>(period_s); });
     model.open(modes::load_scene("ct-skin-and-bone"));
-    QObject::connect(&touching, &SessionController::told, [this](const QString& text, bool problem) {
+    QObject::connect(&session, &SessionController::told, [this](const QString& text, bool problem) {
       if (!text.isEmpty()) told.emplace_back(text.toStdString(), problem);
     });
-    QObject::connect(&touching, &SessionController::recorded,
+    QObject::connect(&session, &SessionController::recorded,
                      [this](const QString& name) { written.push_back(name.toStdString()); });
   }
   /// Until some ticks are recorded.
   bool records() {
-    touching.set_scan(igtl::testing::ball_of_tissue(), {});
-    touching.connect_stylus({.device = "simulated"});
-    touching.record(file);
+    session.set_scan(igtl::testing::ball_of_tissue(), {});
+    session.connect_stylus({.device = "simulated"});
+    session.record(file);
     told.clear();
-    return comes([&] { return touching.last().fresh && touching.last().tick.index > 100; });
+    return comes([&] { return session.last().fresh && session.last().tick.index > 100; });
   }
 
   MadeText kept;
   SceneModel model{kept};
-  SessionController touching{model};
+  SessionController session{model};
   std::string file = testing::fresh_path("controller.h5").string();
   std::vector<std::pair<std::string, bool>> told;
   std::vector<std::string> written;
@@ -49,15 +49,15 @@ struct RecordingOfAController : testing::WithApplication, ::testing::Test {
 /// Whatever ends it: it is told how much was recorded, and the file can be looked at.
 TEST_F(RecordingOfAController, ItIsToldHowItEndedWhateverEndsIt) {
   const std::pair<const char*, std::function<void()>> ends[] = {
-      {"the user", [this] { touching.stop_recording(); }},
-      {"no stylus", [this] { touching.disconnect_stylus(); }},
-      {"no scan", [this] { touching.set_no_scan({}); }},
+      {"the user", [this] { session.stop_recording(); }},
+      {"no stylus", [this] { session.disconnect_stylus(); }},
+      {"no scan", [this] { session.set_no_scan({}); }},
       {"another scan that the scene cannot be felt on",
        [this] {
          const modes::Scene flow = modes::load_scene("flow");
-         touching.expect_scan();
+         session.expect_scan();
          model.open(flow);
-         touching.set_scan(igtl::testing::ball_of_tissue(), {});
+         session.set_scan(igtl::testing::ball_of_tissue(), {});
        }},
   };
   for (const auto& [what, end] : ends) {
@@ -70,7 +70,7 @@ TEST_F(RecordingOfAController, ItIsToldHowItEndedWhateverEndsIt) {
     EXPECT_FALSE(told.front().second);
     EXPECT_THAT(written, ::testing::ElementsAre(file));
     EXPECT_GT(std::filesystem::file_size(file), 0U);
-    touching.disconnect_stylus();
+    session.disconnect_stylus();
   }
 }
 

@@ -55,8 +55,8 @@ bool merge(Marks& marks, const std::vector<igtl::Point>& points) {
 
 }  // namespace
 
-SharingModel::SharingModel(SessionController& touching, SceneModel& scene, MarksModel& marks, QObject* parent)
-    : QObject(parent), touching_(touching), scene_(scene), marks_(marks) {
+SharingModel::SharingModel(SessionController& session, SceneModel& scene, MarksModel& marks, QObject* parent)
+    : QObject(parent), session_(session), scene_(scene), marks_(marks) {
   looks_.setInterval(between_looks_ms);
   connect(&looks_, &QTimer::timeout, this, [this] { look(); });
   connect(&marks, &MarksModel::changed, this, [this] { send_marks(); });
@@ -75,7 +75,7 @@ QString SharingModel::turn_on(int port) {
       .load = {},
       .open = [this](const std::string& folder) { emit folder_wanted(QString::fromStdString(folder)); }};
   if (!received_) received_.emplace();
-  sharing_ = std::make_unique<igtl::Sharing>(touching_.live(), *server_, *received_, std::move(changes),
+  sharing_ = std::make_unique<igtl::Sharing>(session_.live(), *server_, *received_, std::move(changes),
                                              igtl::Announcer::MakesMarks::no);
   send_marks();
   looks_.start();
@@ -105,7 +105,7 @@ void SharingModel::send_marks() {
 }
 
 void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& prepared) {
-  touching_.offer(prepared);
+  session_.offer(prepared);
   const auto refused = std::make_shared<QString>();
   scene_.edit(
       tr("Scene from 3D Slicer"), [scene](modes::Scene& now) { now = scene; },

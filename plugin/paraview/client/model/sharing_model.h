@@ -24,7 +24,7 @@ class SharingModel : public QObject {
 
  public:
   /// All have to outlive it.
-  SharingModel(SessionController& touching, SceneModel& scene, MarksModel& marks, QObject* parent = nullptr);
+  SharingModel(SessionController& session, SceneModel& scene, MarksModel& marks, QObject* parent = nullptr);
 
   /// Listens on this machine. Returns why that cannot be done; empty: it is done.
   QString turn_on(int port);
@@ -46,7 +46,7 @@ class SharingModel : public QObject {
   void take_scene(const modes::Scene& scene, const PreparedScene& prepared);
   void take_marks(const std::vector<igtl::Point>& points);
 
-  SessionController& touching_;
+  SessionController& session_;
   SceneModel& scene_;
   MarksModel& marks_;
   std::unique_ptr<igtl::Server> server_;

@@ -24,16 +24,16 @@ using testing::comes;
 
 struct SharingTest : testing::WithApplication, ::testing::Test {
   SharingTest() {
-    touching.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
+    session.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
     model.open(modes::load_scene("ct-skin-and-bone"));
     QObject::connect(&sharing, &SharingModel::folder_wanted, [this](const QString& name) { folder = name; });
   }
   ~SharingTest() override {
     sharing.turn_off();
-    touching.disconnect_stylus();
+    session.disconnect_stylus();
   }
   void open_scan() {
-    touching.set_scan(igtl::testing::ball_of_tissue(), {});
+    session.set_scan(igtl::testing::ball_of_tissue(), {});
     marks.set_scan("a scan");
   }
   /// The next message of that type and device, while events are handled.
@@ -62,8 +62,8 @@ struct SharingTest : testing::WithApplication, ::testing::Test {
   MadeText kept;
   SceneModel model{kept};
   MarksModel marks{kept};
-  SessionController touching{model};
-  SharingModel sharing{touching, model, marks};
+  SessionController session{model};
+  SharingModel sharing{session, model, marks};
   QString folder;
 };
 
@@ -91,15 +91,15 @@ TEST_F(SharingTest, WhatAClientAsksForIsAStepThatCanBeUndone) {
   client.send(ball_of_labels("liver", glm::dvec3(0), 20));
   ASSERT_TRUE(comes([&] { return model.scene().structures.size() == 1; }));
   EXPECT_EQ(model.scene().structures[0].name, "liver");
-  EXPECT_EQ(touching.live().scene().structures.size(), 1U) << "what is shown is what is felt";
+  EXPECT_EQ(session.live().scene().structures.size(), 1U) << "what is shown is what is felt";
   EXPECT_EQ(kept.steps.back().what.toStdString(), "Scene from 3D Slicer");
   // The next map of that name, undone: the first is felt again.
   const std::string first = model.scene().structures[0].file;
   client.send(ball_of_labels("liver", glm::dvec3(0, 0, 9), 10));
   ASSERT_TRUE(comes([&] { return model.scene().structures.at(0).file != first; }));
   model.undo();
-  EXPECT_TRUE(comes([&] { return touching.live().scene().structures.at(0).file == first; })) << "once it is read";
-  EXPECT_EQ(touching.live().felt().structures.size(), 1U);
+  EXPECT_TRUE(comes([&] { return session.live().scene().structures.at(0).file == first; })) << "once it is read";
+  EXPECT_EQ(session.live().felt().structures.size(), 1U);
   model.undo();
   EXPECT_TRUE(model.scene().structures.empty());
   client.send_text(igtl::folder_name, "/scans/chest");
@@ -110,7 +110,7 @@ TEST_F(SharingTest, WhatAClientAsksForIsAStepThatCanBeUndone) {
 TEST_F(SharingTest, NeitherForceNorLimitIsTheNetworks) {
   open_scan();
   model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 2; });
-  touching.connect_stylus({.device = "simulated"});
+  session.connect_stylus({.device = "simulated"});
   ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
   // Tightened here after it was turned on: that holds, too.
   model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 1.5; });
@@ -127,10 +127,10 @@ TEST_F(SharingTest, NeitherForceNorLimitIsTheNetworks) {
   client.send_text("PalpateFeel", "feel");
   const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   comes([&] { return std::chrono::steady_clock::now() > end; });
-  EXPECT_EQ(touching.live().start(), LiveSession::Start::released);
+  EXPECT_EQ(session.live().start(), LiveSession::Start::released);
   TickRecord tick;
-  ASSERT_TRUE(touching.live().ticks() && touching.live().ticks()->written() > 0);
-  ASSERT_TRUE(touching.live().ticks()->read(touching.live().ticks()->written() - 1, tick));
+  ASSERT_TRUE(session.live().ticks() && session.live().ticks()->written() > 0);
+  ASSERT_TRUE(session.live().ticks()->read(session.live().ticks()->written() - 1, tick));
   EXPECT_EQ(glm::length(vector_of(tick.sent_n)), 0);
 }
 
@@ -195,10 +195,10 @@ TEST_F(SharingTest, FollowsTheStylus) {
   TestClient client(sharing.port());
   ASSERT_NE(next_status(client, "off"), "");
   for (int n = 0; n < 2; ++n) {
-    touching.connect_stylus({.device = "simulated"});
+    session.connect_stylus({.device = "simulated"});
     EXPECT_TRUE(next(client, "TRANSFORM", igtl::proxy_name)) << n;
     EXPECT_NE(next_status(client, "ready"), "") << n;
-    touching.disconnect_stylus();
+    session.disconnect_stylus();
     EXPECT_NE(next_status(client, "off"), "") << n;
   }
 }

@@ -32,7 +32,7 @@ std::vector<Curve> faded(std::vector<Curve> curves) {
 
 }  // namespace
 
-CurveProfile::CurveProfile(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent)
+CurveProfile::CurveProfile(SessionController& session, SceneModel& model, StrokeRunner& strokes, QWidget* parent)
     : QWidget(parent), strokes_(strokes) {
   setObjectName(QStringLiteral("palpateCurveProfile"));
   auto* const column = new QVBoxLayout(this);
@@ -64,7 +64,7 @@ CurveProfile::CurveProfile(SessionController& touching, SceneModel& model, Strok
     if (!dragging_) before_.reset();
     run();
   });
-  connect(&touching, &SessionController::connection_changed, this, [this] { run(); });
+  connect(&session, &SessionController::connection_changed, this, [this] { run(); });
   run();
 }
 

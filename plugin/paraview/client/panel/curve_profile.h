@@ -22,7 +22,7 @@ class CurveProfile : public QWidget {
   Q_OBJECT
 
  public:
-  CurveProfile(SessionController& touching, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
+  CurveProfile(SessionController& session, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
   ~CurveProfile() override;
 
   /// The stroke that the user has chosen. While it is not whole, the line across the place last met is taken.

@@ -47,7 +47,7 @@ modes::Gate* gate_of(modes::Scene& scene, std::size_t mode) {
 
 }  // namespace
 
-CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, StrokeRunner& strokes, QWidget* parent)
+CurvesSection::CurvesSection(SceneModel& model, SessionController& session, StrokeRunner& strokes, QWidget* parent)
     : QWidget(parent), model_(model) {
   setObjectName(QStringLiteral("palpateCurves"));
   auto* const column = new QVBoxLayout(this);
@@ -64,7 +64,7 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& touching, Str
   column->addLayout(row);
   strength_ = new CurveEditor(QStringLiteral("palpateStrengthCurve"), tr("gradient"), tr("strength, N"), this);
   column->addWidget(strength_);
-  profile_ = new CurveProfile(touching, model, strokes, this);
+  profile_ = new CurveProfile(session, model, strokes, this);
   column->addWidget(profile_);
   gate_ = new CurveEditor(QStringLiteral("palpateGateCurve"), tr("value"), tr("factor"), this);
   column->addWidget(gate_);

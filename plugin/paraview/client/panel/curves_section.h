@@ -24,7 +24,7 @@ class CurvesSection : public QWidget {
  public:
   /// Whether B, held, takes the last step back; not while another section shows what was before.
   void set_key_undoes(bool undoes) { key_undoes_ = undoes; }
-  CurvesSection(SceneModel& model, SessionController& touching, StrokeRunner& strokes, QWidget* parent = nullptr);
+  CurvesSection(SceneModel& model, SessionController& session, StrokeRunner& strokes, QWidget* parent = nullptr);
 
   void set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit);
   /// What is under the pointer in a slice, marked in the histograms; none: nothing is.

@@ -43,8 +43,8 @@ QString value_text(double value, const QString& unit, const QString& tissue) {
 
 }  // namespace
 
-Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* parent)
-    : QWidget(parent), touching_(touching), model_(model) {
+Footer::Footer(SessionController& session, const SceneModel& model, QWidget* parent)
+    : QWidget(parent), session_(session), model_(model) {
   setObjectName(QStringLiteral("palpateFooter"));
   auto* const grid = new QGridLayout(this);
   grid->setContentsMargins(6, 4, 6, 6);
@@ -55,8 +55,8 @@ Footer::Footer(SessionController& touching, const SceneModel& model, QWidget* pa
   add_technical(*grid);
   grid->addLayout(make_state(), 6, 0, 1, 3);
   grid->addLayout(make_buttons(), 7, 0, 1, 3);
-  connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
-  connect(&touching, &SessionController::connection_changed, this, [this] { show_connection(); });
+  connect(&session, &SessionController::polled, this, [this](const SessionStatus& look) { show_look(look); });
+  connect(&session, &SessionController::connection_changed, this, [this] { show_connection(); });
   show_connection();
 }
 
@@ -134,20 +134,20 @@ QLayout* Footer::make_buttons() {
   // Made first: the tab key comes to it first.
   release_ = make_release_button(*this, "palpateRelease", tr("Release  (Esc)"));
   release_->setMinimumSize(120, 38);
-  connect(release_, &QPushButton::clicked, this, [this] { touching_.release(); });
+  connect(release_, &QPushButton::clicked, this, [this] { session_.release(); });
   feel_ = new QPushButton(tr("Feel"), this);
   feel_->setObjectName(QStringLiteral("palpateFeel"));
   feel_->setMinimumHeight(38);
   connect(feel_, &QPushButton::clicked, this,
-          [this] { state_line_of(touching_.last()).fault_latched ? touching_.clear_fault() : touching_.feel(); });
+          [this] { state_line_of(session_.last()).fault_latched ? session_.clear_fault() : session_.feel(); });
   row->addWidget(feel_, 1);
   mark_ = new QPushButton(this);
   mark_->setObjectName(QStringLiteral("palpateMark"));
   mark_->setMinimumHeight(38);
   set_corrects(false);
   mark_->setFocusPolicy(Qt::NoFocus);  // the keys are the views'
-  connect(mark_, &QPushButton::pressed, this, [this] { touching_.press_mark(); });
-  connect(mark_, &QPushButton::released, this, [this] { touching_.let_go_mark(); });
+  connect(mark_, &QPushButton::pressed, this, [this] { session_.press_mark(); });
+  connect(mark_, &QPushButton::released, this, [this] { session_.let_go_mark(); });
   row->addWidget(mark_, 1);
   row->addWidget(release_, 1);
   return row;
@@ -174,16 +174,16 @@ bool Footer::is_technical() const {
 }
 
 void Footer::show_connection() {
-  const bool connected = touching_.live().is_connected();
+  const bool connected = session_.live().is_connected();
   release_->setEnabled(connected);
   record_->setEnabled(connected);
   mark_->setEnabled(connected);
-  record_->setText(touching_.live().recording() ? tr("Stop recording") : tr("Record…"));
+  record_->setText(session_.live().recording() ? tr("Stop recording") : tr("Record…"));
 }
 
 void Footer::toggle_recording() {
-  if (touching_.live().recording()) {
-    touching_.stop_recording();
+  if (session_.live().recording()) {
+    session_.stop_recording();
     return;
   }
   const QString name =
@@ -191,7 +191,7 @@ void Footer::toggle_recording() {
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
   const QString file =
       QFileDialog::getSaveFileName(this, tr("Record to"), QDir(folder).filePath(name), tr("Recordings (*.h5)"));
-  if (!file.isEmpty()) touching_.record(file.toStdString());
+  if (!file.isEmpty()) session_.record(file.toStdString());
 }
 
 void Footer::set_felt(const QString& words, bool scan_open) {
@@ -205,7 +205,7 @@ void Footer::show_state(const SessionStatus& look) {
   const StateLine line = state_line_of(look);
   feel_->setText(line.fault_latched ? (line.lost ? tr("Open the stylus again") : tr("Clear fault")) : tr("Feel"));
   feel_->setEnabled(line.fault_latched || line.state == SessionState::ready);
-  const QString kept = line.fault_latched ? touching_.last_fault() : QString();
+  const QString kept = line.fault_latched ? session_.last_fault() : QString();
   const QString tip = kept.isEmpty() ? line.words : line.words + QLatin1Char('\n') + kept;
   if (state_->toolTip() != tip) state_->setToolTip(tip);
   if (state_->text() == line.words) return;
@@ -256,7 +256,7 @@ void Footer::show_look(const SessionStatus& look) {
                                       : tr("%1 past %2").arg(depth, QString::fromStdString(look.held)));
   depth_->setToolTip(depth_->text());
   const QString tissue = QString::fromStdString(look.tissue);
-  const std::string unit = touching_.live().scan() ? touching_.live().scan()->unit : std::string();
+  const std::string unit = session_.live().scan() ? session_.live().scan()->unit : std::string();
   // Else the tick is of a scan that is gone.
   tissue_->setText(!scan_open_                 ? QString()
                    : std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)

@@ -20,7 +20,7 @@ class Footer : public QWidget {
   Q_OBJECT
 
  public:
-  explicit Footer(SessionController& touching, const SceneModel& model, QWidget* parent = nullptr);
+  explicit Footer(SessionController& session, const SceneModel& model, QWidget* parent = nullptr);
 
   /// What is felt, in words: scan, frame, scene; and whether there is a scan.
   /// While an outline is corrected, the mark button does that.
@@ -44,7 +44,7 @@ class Footer : public QWidget {
   void show_connection();
   void toggle_recording();
 
-  SessionController& touching_;
+  SessionController& session_;
   const SceneModel& model_;
   QLabel* tissue_ = nullptr;
   QLabel* force_ = nullptr;

@@ -32,13 +32,13 @@ QString place_in_words(const glm::dvec3& at) {
 
 }  // namespace
 
-MarksSection::MarksSection(MarksModel& model, SessionController& touching, QWidget* parent)
-    : QWidget(parent), model_(model), touching_(touching) {
+MarksSection::MarksSection(MarksModel& model, SessionController& session, QWidget* parent)
+    : QWidget(parent), model_(model), session_(session) {
   setObjectName(QStringLiteral("palpateMarks"));
   build();
   connect(&model, &MarksModel::changed, this, [this] { list(); });
   connect(&model, &MarksModel::refused, this, [this](const QString& why) { tell(why, true); });
-  connect(&touching, &SessionController::looked, this, [this] { show_uses(); });
+  connect(&session, &SessionController::polled, this, [this] { show_uses(); });
   list();
   tell({});
 }
@@ -91,7 +91,7 @@ void MarksSection::build() {
 }
 
 QString MarksSection::unit() const {
-  return touching_.live().scan() ? text(touching_.live().scan()->unit) : QString();
+  return session_.live().scan() ? text(session_.live().scan()->unit) : QString();
 }
 
 std::vector<MarksSection::Row> MarksSection::rows() const {
@@ -219,7 +219,7 @@ void MarksSection::show_uses() {
   const bool any = list_->topLevelItemCount() > 0;
   keep_->setEnabled(!measured_->text().isEmpty());
   remove_->setEnabled(!list_->selectedItems().isEmpty());
-  const SessionStatus& look = touching_.last();
+  const SessionStatus& look = session_.last();
   move_->setEnabled(chosen_.size() == 1 && look.connected && look.fresh && !look.clutched);
   send_->setEnabled(any && !sender_->is_busy());
 }
@@ -249,7 +249,7 @@ void MarksSection::keep_measure() {
 /// All that it says is of the new place.
 void MarksSection::move_here() {
   if (chosen_.size() != 1) return;
-  const FeltMark here = touching_.mark_here();
+  const FeltMark here = session_.mark_here();
   model_.edit(tr("Move %1").arg(text(model_.marks().points[chosen_[0]].name)), [&](Marks& marks) {
     FeltMark& mark = marks.points[chosen_[0]];
     std::string name = std::move(mark.name);

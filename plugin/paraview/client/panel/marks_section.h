@@ -24,7 +24,7 @@ class MarksSection : public QWidget {
   Q_OBJECT
 
  public:
-  MarksSection(MarksModel& model, SessionController& touching, QWidget* parent = nullptr);
+  MarksSection(MarksModel& model, SessionController& session, QWidget* parent = nullptr);
 
   /// How many marks and measures there are; empty where there are none.
   QString in_words() const;
@@ -62,7 +62,7 @@ class MarksSection : public QWidget {
   QString unit() const;
 
   MarksModel& model_;
-  SessionController& touching_;
+  SessionController& session_;
   QTreeWidget* list_ = nullptr;
   QLabel* measured_ = nullptr;
   QLabel* message_ = nullptr;

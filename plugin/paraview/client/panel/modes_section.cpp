@@ -39,8 +39,8 @@ constexpr double first_strength_n = 0.3;
 
 }  // namespace
 
-ModesSection::ModesSection(SceneModel& model, SessionController& touching, QWidget* parent)
-    : QWidget(parent), model_(model), touching_(touching) {
+ModesSection::ModesSection(SceneModel& model, SessionController& session, QWidget* parent)
+    : QWidget(parent), model_(model), session_(session) {
   setObjectName(QStringLiteral("palpateModes"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -139,7 +139,7 @@ void ModesSection::build_parameters(QWidget& parent) {
   here_->setObjectName(QStringLiteral("palpateHere"));
   here_->setText(tr("Put it where the proxy is"));
   connect(here_, &QToolButton::clicked, this,
-          [this] { set(tr("Place"), [at = touching_.last().proxy_mm](modes::Mode& m) { m.position_mm = at; }); });
+          [this] { set(tr("Place"), [at = session_.last().proxy_mm](modes::Mode& m) { m.position_mm = at; }); });
   form->addRow(tr("Place"), here_);
 }
 
@@ -154,7 +154,7 @@ void ModesSection::set(const QString& what, const std::function<void(modes::Mode
 }
 
 void ModesSection::add_mode(const std::string& type) {
-  const glm::dvec3 here = touching_.last().proxy_mm;
+  const glm::dvec3 here = session_.last().proxy_mm;
   model_.edit(tr("Add %1").arg(QString::fromStdString(type)), [type, here](modes::Scene& scene) {
     modes::Mode mode;
     mode.type = type;
@@ -238,7 +238,7 @@ void ModesSection::show_technical(bool shown) {
 }
 
 void ModesSection::refresh() {
-  const auto plan = touching_.live().plan();
+  const auto plan = session_.live().plan();
   if (!plan) {
     plan_->setText({});
     return;

@@ -18,7 +18,7 @@ class ModesSection : public QWidget {
   Q_OBJECT
 
  public:
-  ModesSection(SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
+  ModesSection(SceneModel& model, SessionController& session, QWidget* parent = nullptr);
 
   /// The plan is shown anew.
   void refresh();
@@ -35,7 +35,7 @@ class ModesSection : public QWidget {
   void set(const QString& what, const std::function<void(modes::Mode&)>& change);
 
   SceneModel& model_;
-  SessionController& touching_;
+  SessionController& session_;
   QListWidget* list_;
   QLabel* summary_;
   QComboBox* side_;

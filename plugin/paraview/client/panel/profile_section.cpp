@@ -30,10 +30,10 @@ QString text_of(const glm::dvec3& place) {
 
 }  // namespace
 
-ProfileSection::ProfileSection(OpenViews& views, SessionController& touching, SceneModel& model, StrokeRunner& strokes,
+ProfileSection::ProfileSection(OpenViews& views, SessionController& session, SceneModel& model, StrokeRunner& strokes,
                                QWidget* parent)
     : QWidget(parent),
-      touching_(touching),
+      session_(session),
       strokes_(strokes),
       path_(views, QColor(230, 80, 210)),
       following_(views.follow(Layer::paths, [this](const auto&) { forget(); })) {
@@ -61,7 +61,7 @@ ProfileSection::ProfileSection(OpenViews& views, SessionController& touching, Sc
       },
       [this](const QString& problem) { tell(problem, true); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { run(); });
-  connect(&touching, &SessionController::connection_changed, this, [this] { run(); });
+  connect(&session, &SessionController::connection_changed, this, [this] { run(); });
   show_nothing({});
 }
 
@@ -103,7 +103,7 @@ QWidget* ProfileSection::build_points() {
     auto* const cell = new QHBoxLayout;
     const std::string button = std::string(name) + "Stylus";
     add_tool_button(*cell, *this, button.c_str(), tr("Stylus"), tr("Where the stylus is now"), [this, point] {
-      if (touching_.last().connected) set_point(point, touching_.last().probe_mm);
+      if (session_.last().connected) set_point(point, session_.last().probe_mm);
     });
     grid->addLayout(cell, row, 3);
     return field;

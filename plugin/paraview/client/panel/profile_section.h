@@ -28,7 +28,7 @@ class ProfileSection : public QWidget {
   Q_OBJECT
 
  public:
-  ProfileSection(OpenViews& views, SessionController& touching, SceneModel& model, StrokeRunner& strokes,
+  ProfileSection(OpenViews& views, SessionController& session, SceneModel& model, StrokeRunner& strokes,
                  QWidget* parent = nullptr);
   ~ProfileSection() override;
 
@@ -65,7 +65,7 @@ class ProfileSection : public QWidget {
   void point_at(double depth_mm);
   void tell(const QString& text, bool problem);
 
-  SessionController& touching_;
+  SessionController& session_;
   StrokeRunner& strokes_;
   QPushButton* pick_ = nullptr;
   QLineEdit* from_ = nullptr;

@@ -74,9 +74,9 @@ QString ask_for_recording(QWidget* parent) {
 
 }  // namespace
 
-RecordingsSection::RecordingsSection(OpenViews& views, SessionController& touching, QWidget* parent)
+RecordingsSection::RecordingsSection(OpenViews& views, SessionController& session, QWidget* parent)
     : QWidget(parent),
-      touching_(touching),
+      session_(session),
       first_path_(views, QColor(86, 180, 233)),
       second_path_(views, QColor(230, 159, 0)),
       following_(views.follow(Layer::paths, [this](const auto&) { close_all(); })) {
@@ -101,20 +101,20 @@ RecordingsSection::RecordingsSection(OpenViews& views, SessionController& touchi
   connect(comparison_, &RecordingComparison::told, this, &RecordingsSection::tell);
   message_ = make_message_label(*this, "palpateRecordingMessage");
   column->addWidget(message_);
-  touching.show_instead([this] {
-    const auto& scan = touching_.live().scan();
+  session.show_instead([this] {
+    const auto& scan = session_.live().scan();
     return playback_.look(scan ? scan->unit : std::string());
   });
-  connect(&touching, &SessionController::looked, this, [this] { show_player(); });
-  connect(&touching, &SessionController::connection_changed, this, [this] {
-    if (touching_.live().is_connected()) playback_.pause();
+  connect(&session, &SessionController::polled, this, [this] { show_player(); });
+  connect(&session, &SessionController::connection_changed, this, [this] {
+    if (session_.live().is_connected()) playback_.pause();
     show_player();
   });
   set_first({});
 }
 
 RecordingsSection::~RecordingsSection() {
-  touching_.show_instead({});
+  session_.show_instead({});
 }
 
 QWidget* RecordingsSection::build_player() {
@@ -171,7 +171,7 @@ void RecordingsSection::open(const QString& file) {
 }
 
 void RecordingsSection::read(const QString& file, bool second) {
-  const std::shared_ptr<const io::Volume> volume = touching_.live().scan();
+  const std::shared_ptr<const io::Volume> volume = session_.live().scan();
   if (!volume) {
     tell(words(say("there-is-no-scan-to-see")), true);
     return;
@@ -198,7 +198,7 @@ void RecordingsSection::read(const QString& file, bool second) {
 void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second) {
   if (!opened) {
     tell(error, true);
-  } else if (const auto scan = touching_.live().scan(); scan && opened->scan.lock() == scan) {  // else it has gone
+  } else if (const auto scan = session_.live().scan(); scan && opened->scan.lock() == scan) {  // else it has gone
     second ? set_second(*opened) : set_first(*opened);
   }
 }
@@ -247,7 +247,7 @@ void RecordingsSection::seek(double seconds) {
 
 void RecordingsSection::show_player() {
   if (!first_.session) return;
-  const bool held = touching_.live().is_connected();
+  const bool held = session_.live().is_connected();
   play_->setEnabled(!held);
   play_->setIcon(style()->standardIcon(playback_.is_playing() ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
   held_->setVisible(held);

@@ -26,7 +26,7 @@ class RecordingsSection : public QWidget {
   Q_OBJECT
 
  public:
-  RecordingsSection(OpenViews& views, SessionController& touching, QWidget* parent = nullptr);
+  RecordingsSection(OpenViews& views, SessionController& session, QWidget* parent = nullptr);
   ~RecordingsSection() override;
 
   void open(const QString& file);
@@ -49,7 +49,7 @@ class RecordingsSection : public QWidget {
   void show_paths();
   void tell(const QString& text, bool problem = false);
 
-  SessionController& touching_;
+  SessionController& session_;
   Playback playback_;
   Opened first_, second_;
   PathViews first_path_, second_path_;

@@ -5,7 +5,7 @@
 namespace palpate::plugin {
 
 std::function<Profile()> StrokeRunner::run(const WantedStroke& stroke) {
-  const LiveSession& live = touching_.live();
+  const LiveSession& live = session_.live();
   if (!stroke.is_whole() || !live.plan()) return {};
   const device::Specification stylus =
       live.is_connected() ? live.specification() : device::SimulatedStylus().specification();

@@ -20,7 +20,7 @@ struct WantedStroke {
 
 class StrokeRunner {
  public:
-  explicit StrokeRunner(const SessionController& touching) : touching_(touching) {}
+  explicit StrokeRunner(const SessionController& session) : session_(session) {}
 
   /// What makes the profile, on any thread. Empty: nothing is felt, or the stroke is not whole. Throws with the reason
   /// why the scene cannot be felt.
@@ -29,7 +29,7 @@ class StrokeRunner {
   void forget() { prepared_ = {}; }
 
  private:
-  const SessionController& touching_;
+  const SessionController& session_;
   Prepared prepared_;  // fields of its own: the servo's stay where the stylus is
 };
 

@@ -59,11 +59,11 @@ bool StructuresSection::is_edited(const Entry& entry) {
   return entry.edits.size() > making_edits(entry.structure);
 }
 
-StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching,
+StructuresSection::StructuresSection(OpenViews& views, SceneModel& model, SessionController& session,
                                      CorrectionModel& correction, QWidget* parent)
     : QWidget(parent),
       model_(model),
-      touching_(touching),
+      session_(session),
       correction_(correction),
       drawn_(views),
       finder_([this](const auto& found) { take(found); }, [this](const QString& why) { tell(why, true); }) {
@@ -256,7 +256,7 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
 
 /// As it is felt; null where it is not.
 const LoadedStructure* StructuresSection::felt(const Entry& entry) const {
-  const PreparedScene& prepared = touching_.live().felt();
+  const PreparedScene& prepared = session_.live().felt();
   if (!scan_ || !prepared.volume || io::raw_of(prepared.volume) != io::raw_of(scan_)) return nullptr;
   const auto& structures = prepared.structures;
   const io::ContoursEdit* const contours = contours_of(entry.structure);

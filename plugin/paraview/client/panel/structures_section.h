@@ -37,7 +37,7 @@ class StructuresSection : public QWidget {
   Q_OBJECT
 
  public:
-  StructuresSection(OpenViews& views, SceneModel& model, SessionController& touching, CorrectionModel& correction,
+  StructuresSection(OpenViews& views, SceneModel& model, SessionController& session, CorrectionModel& correction,
                     QWidget* parent = nullptr);
   ~StructuresSection() override;
 
@@ -113,7 +113,7 @@ class StructuresSection : public QWidget {
   const Entry* corrected_entry() const;
 
   SceneModel& model_;
-  SessionController& touching_;
+  SessionController& session_;
   CorrectionModel& correction_;
   QTreeWidget* list_ = nullptr;
   QSlider* opacity_ = nullptr;

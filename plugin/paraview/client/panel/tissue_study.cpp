@@ -4,13 +4,13 @@
 
 namespace palpate::plugin {
 
-TissueStudy::TissueStudy(SceneModel& model, SessionController& touching, QWidget* parent)
-    : QProgressBar(parent), model_(model), touching_(touching) {
+TissueStudy::TissueStudy(SceneModel& model, SessionController& session, QWidget* parent)
+    : QProgressBar(parent), model_(model), session_(session) {
   setObjectName(QStringLiteral("palpateStudying"));
   setFormat(tr("Looking for tissues %p%"));
   hide();
   connect(&model, &SceneModel::changed, this, [this] {
-    if (const auto felt = touching_.live().felt_scan(); felt && felt != studied_.lock()) study(felt);
+    if (const auto felt = session_.live().felt_scan(); felt && felt != studied_.lock()) study(felt);
   });
   // The thread ends before ParaView goes.
   connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, [this] { job_.finish(); });
@@ -33,9 +33,9 @@ void TissueStudy::take(const std::shared_ptr<const ScanStudy>& study, const QStr
   modes::Scene proposed = study->suggested;
   proposed.workspace = model_.scene().workspace;
   emit studied(study, proposed, unit);
-  touching_.set_sites(study->sites);
+  session_.set_sites(study->sites);
   // What is felt or was edited already is not taken away from under the hand.
-  if (!model_.is_edited() && !touching_.live().is_connected()) model_.propose(proposed);
+  if (!model_.is_edited() && !session_.live().is_connected()) model_.propose(proposed);
 }
 
 void TissueStudy::cancel() {

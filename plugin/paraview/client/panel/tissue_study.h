@@ -16,7 +16,7 @@ class TissueStudy : public QProgressBar {
   Q_OBJECT
 
  public:
-  TissueStudy(SceneModel& model, SessionController& touching, QWidget* parent = nullptr);
+  TissueStudy(SceneModel& model, SessionController& session, QWidget* parent = nullptr);
 
   void study(const std::shared_ptr<const io::Volume>& volume);
   /// The scan goes.
@@ -31,7 +31,7 @@ class TissueStudy : public QProgressBar {
   void take(const std::shared_ptr<const ScanStudy>& study, const QString& unit);
 
   SceneModel& model_;
-  SessionController& touching_;
+  SessionController& session_;
   std::weak_ptr<const io::Volume> studied_;  // or being studied
   ScanLoader job_;                           // last: its thread is to end before all that its callbacks use
 };

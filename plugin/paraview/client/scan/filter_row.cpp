@@ -41,9 +41,9 @@ QString name_of(const io::FilterType* type) {
 
 }  // namespace
 
-FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& scans, ScanPipeline& readers,
+FilterRow::FilterRow(SceneModel& model, SessionController& session, ScanModel& scans, ScanPipeline& readers,
                      QWidget* parent)
-    : QWidget(parent), model_(model), touching_(touching), scans_(scans), readers_(readers) {
+    : QWidget(parent), model_(model), session_(session), scans_(scans), readers_(readers) {
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   auto* const row = new QHBoxLayout;
@@ -81,7 +81,7 @@ FilterRow::FilterRow(SceneModel& model, SessionController& touching, ScanModel& 
   connect(&model, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) refresh();
   });
-  connect(&touching, &SessionController::connection_changed, this, [this] { follow_scan(); });
+  connect(&session, &SessionController::connection_changed, this, [this] { follow_scan(); });
   model.set_make_ready([this](const modes::Scene& scene, const auto& ready) { return make_ready(scene, ready); });
   scans.set_filter([this] { return model_.scene().filter; });
   refresh();
@@ -105,14 +105,14 @@ void FilterRow::cancel() {
 /// What was chosen for another scan, or for another frame, is not chosen for this one. What undo brings back is the
 /// scene's, whatever the scan.
 void FilterRow::follow_scan() {
-  const auto scan = touching_.live().scan();
+  const auto scan = session_.live().scan();
   if (!loader_.is_busy() || !scan || filtered_.lock() == scan) return;
   brought_back_ ? compute(io::Filter(through_), ready_) : cancel();
 }
 
 /// The row says what the scene has.
 void FilterRow::follow() {
-  setEnabled(touching_.live().scan() && !touching_.live().scan()->vectors);
+  setEnabled(session_.live().scan() && !session_.live().scan()->vectors);
   if (!loader_.is_busy()) show(model_.scene().filter);  // else it says what was asked for
 }
 
@@ -144,8 +144,8 @@ void FilterRow::offer_amount() {
     amount_->setDecimals(0);
     amount_->setSingleStep(5);
     amount_->setRange(1, 10000);
-    amount_->setSuffix(touching_.live().scan() && !touching_.live().scan()->unit.empty()
-                           ? QStringLiteral(" ") + QString::fromStdString(touching_.live().scan()->unit)
+    amount_->setSuffix(session_.live().scan() && !session_.live().scan()->unit.empty()
+                           ? QStringLiteral(" ") + QString::fromStdString(session_.live().scan()->unit)
                            : QString());
     amount_->setToolTip(tr("Values that differ by less are taken for noise"));
     amount_->setValue(usual_noise);
@@ -178,7 +178,7 @@ void FilterRow::ask() {
   loader_.cancel();
   progress_->hide();
   if (std::exchange(brought_back_, false)) model_.put_back();
-  if (!touching_.live().scan() || filter == model_.scene().filter) {
+  if (!session_.live().scan() || filter == model_.scene().filter) {
     follow();
     return;
   }
@@ -192,7 +192,7 @@ bool FilterRow::make_ready(const modes::Scene& scene, const std::function<void()
   progress_->hide();
   brought_back_ = false;
   const bool is_quick = scene.filter.type == nullptr || scene.filter == model_.scene().filter;
-  if (is_quick || !touching_.live().scan() || touching_.expects_scan()) return false;
+  if (is_quick || !session_.live().scan() || session_.expects_scan()) return false;
   brought_back_ = true;
   compute(scene.filter, ready);
   show(scene.filter);
@@ -200,7 +200,7 @@ bool FilterRow::make_ready(const modes::Scene& scene, const std::function<void()
 }
 
 void FilterRow::compute(const io::Filter& filter, const std::function<void()>& done) {
-  const auto scan = touching_.live().scan();
+  const auto scan = session_.live().scan();
   filtered_ = scan;
   through_ = filter;
   ready_ = done;
@@ -208,7 +208,7 @@ void FilterRow::compute(const io::Filter& filter, const std::function<void()>& d
     progress_->hide();
     if (volume) {
       brought_back_ = false;
-      touching_.offer(volume);
+      session_.offer(volume);
       done();
     } else if (!error.empty()) {
       if (std::exchange(brought_back_, false)) model_.put_back();

@@ -30,7 +30,7 @@ class FilterRow : public QWidget {
   Q_OBJECT
 
  public:
-  FilterRow(SceneModel& model, SessionController& touching, ScanModel& scans, ScanPipeline& readers,
+  FilterRow(SceneModel& model, SessionController& session, ScanModel& scans, ScanPipeline& readers,
             QWidget* parent = nullptr);
 
   /// Another scan, or none.
@@ -53,7 +53,7 @@ class FilterRow : public QWidget {
   void show_in_views();
 
   SceneModel& model_;
-  SessionController& touching_;
+  SessionController& session_;
   ScanModel& scans_;
   ScanPipeline& readers_;
   QComboBox* type_;

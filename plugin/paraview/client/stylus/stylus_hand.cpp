@@ -26,7 +26,7 @@ constexpr float before_all = 20;
 
 struct StylusHand::State {
   State(SessionController& touching_now, vtkPVRenderView& view_now)
-      : touching(touching_now),
+      : session(touching_now),
         view(view_now),
         interactor(view_now.GetInteractor()),
         events(interactor,
@@ -59,7 +59,7 @@ struct StylusHand::State {
   }
   bool is_on_handle() {
     const int* const at = interactor->GetEventPosition();
-    const SessionStatus& look = touching.last();
+    const SessionStatus& look = session.last();
     for (const glm::dvec3& part : {look.proxy_mm, look.probe_mm}) {
       const glm::dvec3 display = display_of(part);
       if (std::hypot(display.x - at[0], display.y - at[1]) > grip_pixels) continue;
@@ -72,11 +72,11 @@ struct StylusHand::State {
   }
   void go(const glm::dvec3& place) {
     target = place;
-    touching.move_hand(place);
+    session.move_hand(place);
   }
 
   bool handle(unsigned long event) {
-    if (!touching.takes_mouse() || touching.is_clutched() || !touching.last().fresh) {
+    if (!session.takes_mouse() || session.is_clutched() || !session.last().fresh) {
       dragging = false;
       return false;
     }
@@ -88,7 +88,7 @@ struct StylusHand::State {
         return true;
       case vtkCommand::LeftButtonReleaseEvent:
         if (!std::exchange(dragging, false)) return false;
-        touching.let_go();
+        session.let_go();
         return true;
       case vtkCommand::MouseMoveEvent:
         if (!dragging) return false;
@@ -120,13 +120,13 @@ struct StylusHand::State {
     for (const auto& [name, step] : steps) {
       if (key != name) continue;
       // From where the hand wants to be, so that steps into a surface add up, in whichever view.
-      touching.move_hand(touching.hand_mm() + key_mm * step);
+      session.move_hand(session.hand_mm() + key_mm * step);
       return true;
     }
     return false;
   }
 
-  SessionController& touching;
+  SessionController& session;
   vtkPVRenderView& view;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor;
   bool dragging = false;
@@ -135,8 +135,8 @@ struct StylusHand::State {
   EventWatch events;
 };
 
-StylusHand::StylusHand(SessionController& touching, vtkPVRenderView& view)
-    : state_(std::make_unique<State>(touching, view)) {}
+StylusHand::StylusHand(SessionController& session, vtkPVRenderView& view)
+    : state_(std::make_unique<State>(session, view)) {}
 
 StylusHand::~StylusHand() = default;
 

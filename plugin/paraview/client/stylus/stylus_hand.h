@@ -14,7 +14,7 @@ namespace palpate::plugin {
 
 class StylusHand {
  public:
-  StylusHand(SessionController& touching, vtkPVRenderView& view);
+  StylusHand(SessionController& session, vtkPVRenderView& view);
   StylusHand(const StylusHand&) = delete;
   StylusHand& operator=(const StylusHand&) = delete;
   ~StylusHand();

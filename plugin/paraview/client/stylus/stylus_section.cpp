@@ -31,8 +31,8 @@ QString in_qt(std::string_view text) {
 
 }  // namespace
 
-StylusSection::StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent)
-    : QWidget(parent), touching_(touching), model_(model), eye_(std::move(eye)) {
+StylusSection::StylusSection(SessionController& session, SceneModel& model, std::function<Eye()> eye, QWidget* parent)
+    : QWidget(parent), session_(session), model_(model), eye_(std::move(eye)) {
   setObjectName(QStringLiteral("palpateStylus"));
   auto* const column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -43,15 +43,15 @@ StylusSection::StylusSection(SessionController& touching, SceneModel& model, std
   message_ = make_message_label(*this, "palpateStylusMessage");
   message_->hide();
   column->addWidget(message_);
-  connect(&touching, &SessionController::told, this,
+  connect(&session, &SessionController::told, this,
           [this](const QString& text, bool problem) { show_message(*message_, text, problem); });
-  connect(&touching, &SessionController::clutch_button_let_go, this, [this] { clutch(false); });
-  connect(&touching, &SessionController::connection_changed, this, [this] {
+  connect(&session, &SessionController::clutch_button_let_go, this, [this] { clutch(false); });
+  connect(&session, &SessionController::connection_changed, this, [this] {
     message_->hide();  // it was about what was before
     message_->clear();
     show_connection();
   });
-  connect(&touching, &SessionController::looked, this, [this](const SessionStatus& look) { show_look(look); });
+  connect(&session, &SessionController::polled, this, [this](const SessionStatus& look) { show_look(look); });
   connect(&model, &SceneModel::changed, this, [this](Pace) { show_scene(); });
   connect(&watch_, &DeviceWatch::found, this, [this](const auto& found) { show_devices(found); });
   show_devices({});
@@ -133,13 +133,13 @@ void StylusSection::build_workspace() {
   add(0, "palpateFitScan", tr("Scan"), tr("The whole scan is in the stylus' reach."),
       [this] { return fit_scan(model_.scene().workspace); });
   add(1, "palpateFitView", tr("View"), tr("What the 3D view shows is in reach, turned as the view is."), [this] {
-    const bool held = touching_.live().is_connected();
+    const bool held = session_.live().is_connected();
     const device::Specification stylus =
-        held ? touching_.live().specification() : device::SimulatedStylus().specification();
+        held ? session_.live().specification() : device::SimulatedStylus().specification();
     return fit_view(eye_(), stylus.workspace_half_extent);
   });
   add(2, "palpateOneToOne", tr("1:1"), tr("1 mm of the hand is 1 mm in the patient."),
-      [this] { return one_to_one(touching_.live().plan() ? touching_.live().plan()->workspace : modes::Workspace{}); });
+      [this] { return one_to_one(session_.live().plan() ? session_.live().plan()->workspace : modes::Workspace{}); });
   row->addStretch(1);
   clutch_ = new QPushButton(tr("Clutch"), this);
   clutch_->setObjectName(QStringLiteral("palpateClutch"));
@@ -207,7 +207,7 @@ void StylusSection::show_devices(const std::vector<device::FoundDevice>& found) 
                          (tested + QLatin1Char('\n') + QString::fromStdString(one.note)).trimmed(), Qt::ToolTipRole);
   }
   int at = chosen.isValid() ? device_->findData(chosen) : 0;
-  if (at < 0 && touching_.live().is_connected()) {
+  if (at < 0 && session_.live().is_connected()) {
     device_->addItem(chosen_text, chosen);
     at = device_->count() - 1;
   }
@@ -224,8 +224,8 @@ void StylusSection::show_choice() {
 }
 
 void StylusSection::connect_or_not() {
-  if (touching_.live().is_connected()) {
-    touching_.disconnect_stylus();
+  if (session_.live().is_connected()) {
+    session_.disconnect_stylus();
     return;
   }
   const QString device = device_->currentData().toString();
@@ -237,11 +237,11 @@ void StylusSection::connect_or_not() {
   // A Falcon has two files: its settings can name the firmware.
   const bool is_firmware = takes_file && type->file == device::DeviceFile::firmware &&
                            !file_->text().trimmed().endsWith(QLatin1String(".json"), Qt::CaseInsensitive);
-  touching_.connect_stylus({.device = device.toStdString(),
-                            .firmware = is_firmware ? file : std::string(),
-                            .settings = is_firmware ? std::string() : file});
+  session_.connect_stylus({.device = device.toStdString(),
+                           .firmware = is_firmware ? file : std::string(),
+                           .settings = is_firmware ? std::string() : file});
   if (static bool said = false;
-      touching_.live().is_connected() && message_->text().isEmpty() && !std::exchange(said, true)) {
+      session_.live().is_connected() && message_->text().isEmpty() && !std::exchange(said, true)) {
     message_->setText(
         tr("Research software, not a medical device: it must not guide a diagnosis or a treatment. "
            "Esc takes the force away at any time."));
@@ -251,10 +251,10 @@ void StylusSection::connect_or_not() {
 }
 
 void StylusSection::show_connection() {
-  const LiveSession& live = touching_.live();
+  const LiveSession& live = session_.live();
   const bool held = live.is_connected();
   connect_->setText(held ? tr("Disconnect") : tr("Connect"));
-  connect_->setEnabled(held || live.scan() != nullptr || !touching_.why_no_scan().isEmpty());
+  connect_->setEnabled(held || live.scan() != nullptr || !session_.why_no_scan().isEmpty());
   connect_->setToolTip(live.scan() ? QString() : tr("Open a scan first."));
   device_->setEnabled(!held);
   file_->setEnabled(!held);
@@ -276,7 +276,7 @@ void StylusSection::show_technical(bool shown) {
 
 /// Its limits are for developers; what concerns safety is always said.
 void StylusSection::show_own() {
-  const LiveSession& live = touching_.live();
+  const LiveSession& live = session_.live();
   QStringList lines;
   if (live.is_connected()) {
     const device::Specification& stylus = live.specification();
@@ -329,7 +329,7 @@ void StylusSection::show_scene() {
   const QSignalBlocker quiet(stiffness_), quiet_too(limit_);
   stiffness_->setValue(scene.stiffness_n_per_m);
   limit_->setValue(scene.limits.force_n);
-  const auto plan = touching_.live().plan();
+  const auto plan = session_.live().plan();
   scale_->setText(plan ? tr("%1 mm of patient per mm of hand").arg(plan->workspace.mm_per_m / 1e3, 0, 'f', 2)
                        : tr("no scan yet"));
   show_own();
@@ -337,21 +337,21 @@ void StylusSection::show_scene() {
 
 void StylusSection::show_look(const SessionStatus& look) {
   clutch_->setChecked(look.clutched);
-  const bool may = touching_.may_remap();
+  const bool may = session_.may_remap();
   for (QToolButton* const fit : fits_) fit->setEnabled(may);
   go_->setEnabled(look.is_seen());
 }
 
 void StylusSection::remap(const QString& what, const modes::WorkspaceSettings& settings) {
-  if (!touching_.may_remap()) return;
+  if (!session_.may_remap()) return;
   model_.edit(tr("Reach: %1").arg(what), [settings](modes::Scene& s) { s.workspace = settings; });
 }
 
 void StylusSection::clutch(bool on) {
   if (on) {
-    touching_.clutch();
+    session_.clutch();
   } else {
-    touching_.unclutch(turn_->isChecked() ? rotation_of(eye_()) : touching_.last().workspace.rotation);
+    session_.unclutch(turn_->isChecked() ? rotation_of(eye_()) : session_.last().workspace.rotation);
   }
 }
 

@@ -29,7 +29,7 @@ class StylusSection : public QWidget {
 
  public:
   /// `eye` tells what the 3D view looks at.
-  StylusSection(SessionController& touching, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
+  StylusSection(SessionController& session, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
 
   /// Whether the slices follow the stylus now: not while the user leafs through them.
   bool slices_follow() const;
@@ -64,7 +64,7 @@ class StylusSection : public QWidget {
   void clutch(bool on);
   void go_to_stylus();
 
-  SessionController& touching_;
+  SessionController& session_;
   SceneModel& model_;
   std::function<Eye()> eye_;
   DeviceWatch watch_;

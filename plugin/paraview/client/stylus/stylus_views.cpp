@@ -53,13 +53,13 @@ QString distance_in_words(Plane plane, double off_mm) {
 }  // namespace
 
 struct StylusViews::OneView {
-  OneView(SessionController& touching, const ClinicalView& of)
+  OneView(SessionController& session, const ClinicalView& of)
       : kind(of.kind),
         view(of.view),
         slice(of.slice),
         client(client_view(*of.view)),
         glyphs(*client),
-        hand(touching, *client) {}
+        hand(session, *client) {}
 
   bool has_moved(const SessionStatus& look, double mm_per_pixel) const {
     const auto moved = [&](const glm::dvec3& a, const glm::dvec3& b) {
@@ -97,8 +97,8 @@ struct StylusViews::OneView {
   bool coarse = false;  ///< drawn last with less detail than it can have
 };
 
-StylusViews::StylusViews(OpenViews& views, SessionController& touching, const SceneModel& model)
-    : touching_(touching),
+StylusViews::StylusViews(OpenViews& views, SessionController& session, const SceneModel& model)
+    : session_(session),
       model_(model),
       following_(views.follow(Layer::stylus, [this](const auto& open) { set_views(open); })) {}
 
@@ -109,7 +109,7 @@ void StylusViews::set_views(const std::vector<ClinicalView>& views) {
   values_of_.reset();  // a scan that is closed is not held
   values_.reset();
   for (const ClinicalView& view : views) {
-    OneView& one = *views_.emplace_back(std::make_unique<OneView>(touching_, view));
+    OneView& one = *views_.emplace_back(std::make_unique<OneView>(session_, view));
     if (one.kind != ViewKind::volume) continue;
     one.pick = std::make_unique<VolumePick>(
         *one.client, [this](Pick what, const auto& near, const auto& far) { return pick(what, near, far); });
@@ -151,8 +151,8 @@ bool StylusViews::shows(const glm::dvec3& place) {
 }
 
 void StylusViews::follow_scan() {
-  if (touching_.live().felt_scan() == values_of_) return;
-  values_of_ = touching_.live().felt_scan();
+  if (session_.live().felt_scan() == values_of_) return;
+  values_of_ = session_.live().felt_scan();
   values_ = values_of_
                 ? std::make_shared<const io::VolumeFields>(values_of_, io::FieldSet::value, 1,
                                                            io::FieldOptions{.brick_bytes = 0, .background = false})

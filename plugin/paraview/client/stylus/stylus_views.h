@@ -23,7 +23,7 @@ struct Eye;
 
 class StylusViews {
  public:
-  StylusViews(OpenViews& views, SessionController& touching, const SceneModel& model);
+  StylusViews(OpenViews& views, SessionController& session, const SceneModel& model);
   StylusViews(const StylusViews&) = delete;
   StylusViews& operator=(const StylusViews&) = delete;
   ~StylusViews();
@@ -51,7 +51,7 @@ class StylusViews {
   void follow_scan();
   bool pick(Pick what, const glm::dvec3& near, const glm::dvec3& far);
 
-  SessionController& touching_;
+  SessionController& session_;
   const SceneModel& model_;
   std::vector<std::unique_ptr<OneView>> views_;
   std::vector<OpacityNode> opacity_;
