@@ -5,18 +5,20 @@
 
 #include <malloc.h>
 
-#include <QThreadPool>
 #include <QTimer>
+
+#include "plugin/paraview/client/jobs/job.h"
 
 namespace palpate::plugin {
 
 class FreeMemory {
  public:
   FreeMemory() {
-    pool_.setMaxThreadCount(1);
     soon_.setSingleShot(true);
     soon_.setInterval(wait_ms);
-    QObject::connect(&soon_, &QTimer::timeout, &soon_, [this] { pool_.start([] { malloc_trim(0); }); });
+    QObject::connect(&soon_, &QTimer::timeout, &soon_, [this] {
+      job_.ask([] { return malloc_trim(0); }, [](const auto& /*given*/, const QString& /*error*/) {});
+    });
   }
 
   /// Gives it back to the system, in the background, once nothing more was asked for 2 s.
@@ -25,7 +27,7 @@ class FreeMemory {
  private:
   static constexpr int wait_ms = 2000;
   QTimer soon_;
-  QThreadPool pool_;
+  Job job_{Job::Newer::follows};
 };
 
 }  // namespace palpate::plugin
