@@ -63,9 +63,9 @@ void PanelParts::ask_picture() {
       ask_file_to_write(&dock, tr("Save a picture of the views"), tr("Pictures (*.png)"), QStringLiteral("png"));
   if (file.isEmpty()) return;
   if (!save_picture(*marked, file)) {
-    emit session.told(
-        words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())),
-        true);
+    tell_not_written(
+        &dock, tr("Save a picture of the views"),
+        words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())));
   }
 }
 

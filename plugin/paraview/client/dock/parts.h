@@ -47,7 +47,7 @@ struct PanelParts {
         session(model, &panel),
         layers(open_views, session, model, marks),
         looks(readers, layers, kept, &window),
-        guard(unsaved, scans, session, window) {}
+        guard(unsaved, scans, window) {}
 
   void build();
   // build_toolbar.cpp

@@ -24,8 +24,7 @@ QString now_in_a_name() {
 
 }  // namespace
 
-UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& session, QMainWindow& window)
-    : work_(work), session_(session), window_(window) {
+UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& window) : work_(work), window_(window) {
   auto* const application = pqApplicationCore::instance();
   connect(application, &pqApplicationCore::stateSaved, this, [this] {
     if (!saving_) work_.note_state_saved();
@@ -58,24 +57,25 @@ bool UnsavedGuard::may_lose(const Unsaved& work, const QString& before, const st
   return false;
 }
 
+QString UnsavedGuard::not_written(const QString& file) {
+  return words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString()));
+}
+
 bool UnsavedGuard::save_state() {
   const QString file =
       ask_file_to_write(&window_, tr("Save all that is open"), tr("ParaView states (*.pvsm)"), QStringLiteral("pvsm"),
                         QStringLiteral("palpate-%1.pvsm").arg(now_in_a_name()));
-  return !file.isEmpty() && write_state(file);
+  if (file.isEmpty()) return false;
+  const bool written = write_state(file);
+  if (!written) tell_not_written(&window_, tr("Save all that is open"), not_written(file));
+  return written;
 }
 
 bool UnsavedGuard::write_state(const QString& file) {
   saving_ = true;
   const bool written = pqApplicationCore::instance()->saveState(file);
   saving_ = false;
-  if (written) {
-    work_.note_state_saved();
-  } else {
-    emit session_.told(
-        words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())),
-        true);
-  }
+  if (written) work_.note_state_saved();
   return written;
 }
 
@@ -85,7 +85,7 @@ QString UnsavedGuard::recover() {
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + QStringLiteral("/palpate"));
   folder.mkpath(QStringLiteral("."));
   const QString file = folder.filePath(QStringLiteral("unsaved-%1.pvsm").arg(now_in_a_name()));
-  if (!write_state(file)) return {};
+  if (!write_state(file)) return not_written(file);
   QFile::setPermissions(file, QFileDevice::ReadOwner | QFileDevice::WriteOwner);  // it names the patient's folder
   return words(say("unsaved-work-is-kept", work.toStdString(), file.toStdString()));
 }

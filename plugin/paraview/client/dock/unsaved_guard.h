@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "plugin/paraview/client/model/scan_model.h"
-#include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/unsaved_work.h"
 
 class QMainWindow;
@@ -19,19 +18,19 @@ class UnsavedGuard : public QObject {
   Q_OBJECT
 
  public:
-  UnsavedGuard(UnsavedWork& work, ScanModel& scans, SessionController& session, QMainWindow& window);
+  UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& window);
 
   /// ParaView's session ends, and nobody was asked: by a script, or by another server. What is to be told of it; empty:
-  /// nothing was kept.
+  /// there was nothing to be kept.
   QString recover();
 
  private:
   bool may_lose(const Unsaved& work, const QString& before, const std::function<void()>& let_go);
   bool save_state();
   bool write_state(const QString& file);
+  static QString not_written(const QString& file);
 
   UnsavedWork& work_;
-  SessionController& session_;
   QMainWindow& window_;
   bool saving_ = false;  // a state file, which may fail
   bool ending_ = false;  // the program, which has asked

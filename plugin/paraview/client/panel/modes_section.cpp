@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QMenu>
+#include <QPointer>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -53,8 +54,9 @@ ModesSection::ModesSection(SceneModel& model, SessionController& session, QWidge
     if (listing_) return;
     const auto n = static_cast<std::size_t>(list_->row(item));
     const bool on = item->checkState() == Qt::Checked;
-    model_.edit_mode(on ? tr("Switch on %1").arg(item->text()) : tr("Switch off %1").arg(item->text()), n,
-                     [on](modes::Mode& mode) { mode.enabled = on; });
+    model_.edit_mode(
+        on ? tr("Switch on %1").arg(item->text()) : tr("Switch off %1").arg(item->text()), n,
+        [on](modes::Mode& mode) { mode.enabled = on; }, told());
   });
   column->addWidget(list_);
   auto* const row = new QHBoxLayout;
@@ -86,8 +88,22 @@ ModesSection::ModesSection(SceneModel& model, SessionController& session, QWidge
   plan_ = make_message_label(*this, "palpatePlan");
   plan_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   column->addWidget(plan_);
-  connect(&model, &SceneModel::changed, this, [this](Pace) { list_modes(); });
+  message_ = make_message_label(*this, "palpateModesMessage");
+  message_->hide();
+  column->addWidget(message_);
+  connect(&model, &SceneModel::changed, this, [this](Pace) {
+    message_->hide();
+    list_modes();
+  });
   list_modes();
+}
+
+SceneModel::Told ModesSection::told() {
+  return [alive = QPointer(this)](const QString& why) {
+    if (!alive || why.isEmpty()) return;
+    show_message(*alive->message_, why, true);
+    alive->list_modes();
+  };
 }
 
 void ModesSection::build_parameters(QWidget& parent) {
@@ -150,32 +166,38 @@ std::size_t ModesSection::mode() const {
 void ModesSection::set(const QString& what, const std::function<void(modes::Mode&)>& change) {
   const std::size_t n = mode();
   if (n >= model_.scene().modes.size()) return;
-  model_.edit_mode(tr("%1 of %2").arg(what, name_of(model_.scene(), n)), n, change);
+  model_.edit_mode(tr("%1 of %2").arg(what, name_of(model_.scene(), n)), n, change, told());
 }
 
 void ModesSection::add_mode(const std::string& type) {
   const glm::dvec3 here = session_.last().proxy_mm;
-  model_.edit(tr("Add %1").arg(QString::fromStdString(type)), [type, here](modes::Scene& scene) {
-    modes::Mode mode;
-    mode.type = type;
-    mode.name = new_name(scene, type);
-    mode.strength_of = modes::find_mode_type(type)->strength_of;
-    mode.strength_n = modes::TransferFunction(first_strength_n);
-    mode.position_mm = here;
-    if (modes::contains(modes::find_mode_type(type)->keys, modes::Key::margin)) {
-      mode.structure = scene.structures.front().name;
-    }
-    scene.modes.push_back(mode);
-  });
+  model_.edit(
+      tr("Add %1").arg(QString::fromStdString(type)),
+      [type, here](modes::Scene& scene) {
+        modes::Mode mode;
+        mode.type = type;
+        mode.name = new_name(scene, type);
+        mode.strength_of = modes::find_mode_type(type)->strength_of;
+        mode.strength_n = modes::TransferFunction(first_strength_n);
+        mode.position_mm = here;
+        if (modes::contains(modes::find_mode_type(type)->keys, modes::Key::margin)) {
+          mode.structure = scene.structures.front().name;
+        }
+        scene.modes.push_back(mode);
+      },
+      told());
   list_->setCurrentRow(list_->count() - 1);
 }
 
 void ModesSection::remove_mode() {
   const std::size_t n = mode();
   if (n >= model_.scene().modes.size()) return;
-  model_.edit(tr("Remove %1").arg(name_of(model_.scene(), n)), [n](modes::Scene& scene) {
-    if (n < scene.modes.size()) scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(n));
-  });
+  model_.edit(
+      tr("Remove %1").arg(name_of(model_.scene(), n)),
+      [n](modes::Scene& scene) {
+        if (n < scene.modes.size()) scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(n));
+      },
+      told());
 }
 
 void ModesSection::list_modes() {

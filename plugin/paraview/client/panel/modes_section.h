@@ -26,6 +26,8 @@ class ModesSection : public QWidget {
   void show_technical(bool shown);
 
  private:
+  /// What a change is told: a refused one goes back to what is felt.
+  SceneModel::Told told();
   void build_parameters(QWidget& parent);
   void list_modes();
   void show_mode();
@@ -45,6 +47,7 @@ class ModesSection : public QWidget {
   QComboBox* direction_;
   QDoubleSpinBox* strength_;
   QToolButton* here_;
+  QLabel* message_ = nullptr;
   QLabel* plan_;
   bool listing_ = false;
 };

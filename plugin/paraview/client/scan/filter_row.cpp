@@ -12,6 +12,7 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPointer>
 #include <QProgressBar>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -24,6 +25,7 @@
 #include "plugin/paraview/client/model/scene_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/pipeline/scan_pipeline.h"
+#include "plugin/paraview/client/widgets/message_label.h"
 
 namespace palpate::plugin {
 namespace {
@@ -71,6 +73,9 @@ FilterRow::FilterRow(SceneModel& model, SessionController& session, ScanModel& s
   progress_->setFormat(tr("Filtering %p%"));
   progress_->hide();
   column->addWidget(progress_);
+  message_ = make_message_label(*this, "palpateFilterMessage");
+  message_->hide();
+  column->addWidget(message_);
 
   connect(type_, QOverload<int>::of(&QComboBox::activated), this, [this] {
     offer_amount();
@@ -99,6 +104,7 @@ void FilterRow::give_up() {
 void FilterRow::cancel() {
   loader_.cancel();
   progress_->hide();
+  message_->hide();
   follow();
 }
 
@@ -182,8 +188,13 @@ void FilterRow::ask() {
     follow();
     return;
   }
-  compute(filter,
-          [this, filter] { model_.edit(tr("filter"), [filter](modes::Scene& scene) { scene.filter = filter; }); });
+  compute(filter, [this, filter] {
+    model_.edit(
+        tr("filter"), [filter](modes::Scene& scene) { scene.filter = filter; },
+        [alive = QPointer(this)](const QString& why) {
+          if (alive) show_message(*alive->message_, why, true);
+        });
+  });
 }
 
 /// Undo, and whatever else changes the scene's text in the pipeline.
@@ -212,10 +223,11 @@ void FilterRow::compute(const io::Filter& filter, const std::function<void()>& d
       done();
     } else if (!error.empty()) {
       if (std::exchange(brought_back_, false)) model_.put_back();
-      emit model_.refused(QString::fromStdString(error));
+      show_message(*message_, QString::fromStdString(error), true);
     }
     refresh();
   };
+  message_->hide();
   progress_->setValue(0);
   progress_->show();
   const auto tell = [this](double part) { progress_->setValue(static_cast<int>(100 * part)); };

@@ -60,6 +60,7 @@ class FilterRow : public QWidget {
   QDoubleSpinBox* amount_;
   QCheckBox* shown_;
   QProgressBar* progress_;
+  QLabel* message_;
   bool brought_back_ = false;                 // what is computed is for a scene that the pipeline has already
   std::weak_ptr<const io::Volume> filtered_;  // the scan that is being filtered; through what, and what follows
   io::Filter through_;

@@ -8,6 +8,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPointer>
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalBlocker>
@@ -98,8 +99,10 @@ void StylusSection::build_limits() {
     box->setDecimals(step < 1 ? 1 : 0);
     box->setSuffix(suffix);
     box->setKeyboardTracking(false);
-    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-            [this, label, set](double value) { model_.edit(label, [set, value](modes::Scene& s) { set(s, value); }); });
+    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this, label, set](double value) {
+      model_.edit(
+          label, [set, value](modes::Scene& s) { set(s, value); }, told());
+    });
     grid->addWidget(new QLabel(label, this), row, 0);
     grid->addWidget(box, row, 1);
     return box;
@@ -335,6 +338,14 @@ void StylusSection::show_scene() {
   show_own();
 }
 
+SceneModel::Told StylusSection::told() {
+  return [alive = QPointer(this)](const QString& why) {
+    if (!alive || why.isEmpty()) return;
+    show_message(*alive->message_, why, true);
+    alive->show_own();
+  };
+}
+
 void StylusSection::show_look(const SessionStatus& look) {
   clutch_->setChecked(look.clutched);
   const bool may = session_.may_remap();
@@ -344,7 +355,8 @@ void StylusSection::show_look(const SessionStatus& look) {
 
 void StylusSection::remap(const QString& what, const modes::WorkspaceSettings& settings) {
   if (!session_.may_remap()) return;
-  model_.edit(tr("Reach: %1").arg(what), [settings](modes::Scene& s) { s.workspace = settings; });
+  model_.edit(
+      tr("Reach: %1").arg(what), [settings](modes::Scene& s) { s.workspace = settings; }, told());
 }
 
 void StylusSection::clutch(bool on) {

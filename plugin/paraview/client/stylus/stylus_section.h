@@ -55,6 +55,8 @@ class StylusSection : public QWidget {
   void show_connection();
   const device::DeviceType* chosen_type() const;
   void show_own();
+  /// What a change is told: a refused one goes back to what is felt.
+  SceneModel::Told told();
   QString tested() const;
   QString unguarded() const;
   QStringList without_program(const device::Specification& stylus) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Asks for a file that is to be written.
+/// Asks for a file that is to be written, and tells if it could not be.
 
 #include <QCoreApplication>
 #include <QFileDialog>
@@ -31,6 +31,14 @@ inline QString ask_file_to_write(QWidget* parent, const QString& title, const QS
                             QCoreApplication::translate("FileName", "%1 is there already. Replace it?").arg(whole)) !=
           QMessageBox::Yes;
   return taken ? QString() : whole;
+}
+
+/// In front of what asked for the file.
+inline void tell_not_written(QWidget* parent, const QString& title, const QString& why) {
+  QMessageBox box(QMessageBox::Warning, title, why, QMessageBox::Ok, parent);
+  box.setObjectName(QStringLiteral("palpateNotWritten"));
+  box.setTextFormat(Qt::PlainText);
+  box.exec();
 }
 
 }  // namespace palpate::plugin
