@@ -2,6 +2,8 @@
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMProxyLocator.h>
 
 #include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"

@@ -30,10 +30,10 @@ void PanelParts::connect_start() {
   });
   QObject::connect(layout, &HostLayout::advanced_changed, center, &EmptyCenter::set_advanced);
   QObject::connect(page, &StartPage::open_wanted, column->scan, &ScanSection::ask_folder);
-  QObject::connect(page, &StartPage::folder_wanted, scan,
+  QObject::connect(page, &StartPage::folder_wanted, column->scan,
                    [this](const QString& folder) { column->scan->open(folder.toStdString()); });
   QObject::connect(page, &StartPage::series_wanted, &scans, &ScanModel::choose);
-  QObject::connect(page, &StartPage::archive_wanted, scan, [this] {
+  QObject::connect(page, &StartPage::archive_wanted, column->scan, [this] {
     column->scan_fold->set_open(true);
     column->scan->show_archive();
   });
@@ -48,20 +48,21 @@ void PanelParts::connect_start() {
   QObject::connect(column->scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
   QObject::connect(&scans, &ScanModel::told, page, &StartPage::tell);
   // Whose scan is coming is said at once, where the one before was named.
-  QObject::connect(&scans, &ScanModel::changed, &dock, [this, page, cover = QPointer(cover)] {
-    const auto coming = scans.on_its_way();
-    const QString words_now = coming ? tr("Opening %1…").arg(coming->label) : QString();
-    if (cover) cover->set_words(words_now);
-    if (std::exchange(opening, words_now) == words_now) return;
-    if (coming && !scans.seen()) page->tell(words_now);
-    if (coming) {
-      column->scan_fold->set_note(words_now);
-    } else if (scans.shown()) {
-      note_scan(*scans.shown());
-    } else {
-      column->scan_fold->set_note({});
-    }
-  });
+  QObject::connect(&scans, &ScanModel::changed, &dock,
+                   [this, page, cover = QPointer(cover), opening = QString()]() mutable {
+                     const auto coming = scans.on_its_way();
+                     const QString words_now = coming ? tr("Opening %1…").arg(coming->label) : QString();
+                     if (cover) cover->set_words(words_now);
+                     if (std::exchange(opening, words_now) == words_now) return;
+                     if (coming && !scans.seen()) page->tell(words_now);
+                     if (coming) {
+                       column->scan_fold->set_note(words_now);
+                     } else if (scans.shown()) {
+                       note_scan(*scans.shown());
+                     } else {
+                       column->scan_fold->set_note({});
+                     }
+                   });
 
   auto* const sample = new SampleScan(&dock);
   page->set_sample(sample->offer());
@@ -69,7 +70,7 @@ void PanelParts::connect_start() {
     page->tell(words(say("sample-is-written")));
     sample->make();
   });
-  QObject::connect(sample, &SampleScan::ready, scan,
+  QObject::connect(sample, &SampleScan::ready, column->scan,
                    [this](const QString& folder) { column->scan->open(folder.toStdString()); });
   QObject::connect(sample, &SampleScan::failed, page, [page](const QString& why) { page->tell(why, true); });
 }

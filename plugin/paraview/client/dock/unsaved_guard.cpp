@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/dock/unsaved_guard.h"
 
 #include <pqApplicationCore.h>
+#include <vtkPVXMLElement.h>
 
 #include <QCoreApplication>
 #include <QDateTime>

@@ -2,6 +2,7 @@
 
 /// Structures in the views of a scan: outlines on the slices, surfaces in the volume view.
 
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <QColor>
@@ -13,8 +14,6 @@
 #include "io/structures/distance_field.h"
 #include "plugin/paraview/client/model/open_views.h"
 #include "plugin/paraview/client/views/clinical_views.h"
-
-class vtkPolyData;
 
 namespace palpate::plugin {
 
