@@ -428,14 +428,35 @@ void choose_clock(const std::string& name) {
 void run_scenario(const std::string& name) {
   choose_clock(name);
   wait_ms(1000);
-  for (const Scenarios* const some :
-       {&scenarios,           &archive_scenarios(),   &choosing_scenarios(),    &contour_scenarios(),
-        &correct_scenarios(), &device_scenarios(),    &felt_trace_scenarios(),  &frame_scenarios(),
-        &hand_scenarios(),    &heap_scenarios(),      &interchange_scenarios(), &language_scenarios(),
-        &layout_scenarios(),  &mark_scenarios(),      &sent_mark_scenarios(),   &picture_scenarios(),
-        &profile_scenarios(), &recording_scenarios(), &remote_scenarios(),      &sharing_scenarios(),
-        &shown_scenarios(),   &slice_scenarios(),     &story_scenarios(),       &structure_scenarios(),
-        &reading_scenarios(), &tuning_scenarios(),    &unsaved_scenarios(),     &volume_scenarios()}) {
+  for (const Scenarios* const some : {&scenarios,
+                                      &archive_scenarios(),
+                                      &choosing_scenarios(),
+                                      &contour_scenarios(),
+                                      &correct_scenarios(),
+                                      &correct_state_scenarios(),
+                                      &device_scenarios(),
+                                      &felt_trace_scenarios(),
+                                      &frame_scenarios(),
+                                      &hand_scenarios(),
+                                      &heap_scenarios(),
+                                      &interchange_scenarios(),
+                                      &language_scenarios(),
+                                      &layout_scenarios(),
+                                      &mark_scenarios(),
+                                      &sent_mark_scenarios(),
+                                      &picture_scenarios(),
+                                      &profile_scenarios(),
+                                      &recording_scenarios(),
+                                      &remote_scenarios(),
+                                      &sharing_scenarios(),
+                                      &shown_scenarios(),
+                                      &slice_scenarios(),
+                                      &story_scenarios(),
+                                      &structure_scenarios(),
+                                      &reading_scenarios(),
+                                      &tuning_scenarios(),
+                                      &unsaved_scenarios(),
+                                      &volume_scenarios()}) {
     if (const auto found = some->find(name); found != some->end()) return found->second();
   }
   throw std::runtime_error("there is no scenario " + name);

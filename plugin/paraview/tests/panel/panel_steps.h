@@ -27,6 +27,7 @@ const Scenarios& archive_scenarios();
 const Scenarios& choosing_scenarios();
 const Scenarios& contour_scenarios();
 const Scenarios& correct_scenarios();
+const Scenarios& correct_state_scenarios();
 const Scenarios& device_scenarios();
 const Scenarios& felt_trace_scenarios();
 const Scenarios& frame_scenarios();
