@@ -36,7 +36,7 @@ void dragged_node_of_32_modes(benchmark::State& state) {
   change(state, [](modes::Scene& scene, double part) {
     while (scene.modes.size() < modes::Scene::most_modes) {
       scene.modes.push_back(scene.modes[0]);
-      scene.modes.back().name += " " + std::to_string(scene.modes.size());
+      scene.modes.back().name.append(std::to_string(scene.modes.size()));
     }
     scene.modes[0].strength_n = modes::TransferFunction({{20, 0}, {90, 0.5 + part}});
   });
