@@ -147,16 +147,22 @@ std::string segment_of(const modes::SceneStructure& wanted) {
   return wanted.segment_number ? fmt::format("#{}", *wanted.segment_number) : wanted.segment;
 }
 
-/// The same outline with that reach, whatever its edits; null: there is none.
+std::size_t common_edits(const modes::SceneStructure& wanted, const LoadedStructure& known) {
+  return static_cast<std::size_t>(std::ranges::mismatch(wanted.edits, known.edits).in1 - wanted.edits.begin());
+}
+
+/// The same outline with that reach, which has the most of the scene's edits; null: there is none.
 const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double reach_mm,
                                    const std::vector<LoadedStructure>& before) {
   const std::string file = std::filesystem::path(wanted.file).string(), segment = segment_of(wanted);
-  const auto known = std::ranges::find_if(before, [&](const LoadedStructure& one) {
+  const LoadedStructure* best = nullptr;
+  for (const LoadedStructure& one : before) {
     const bool same = modes::is_drawn(wanted) ? one.file.empty() && one.edits.front() == wanted.edits.front()
                                               : one.file == file && one.segment == segment;
-    return same && one.distance->reach_mm() == reach_mm;
-  });
-  return known == before.end() ? nullptr : &*known;
+    if (!same || one.distance->reach_mm() != reach_mm) continue;
+    if (best == nullptr || common_edits(wanted, one) > common_edits(wanted, *best)) best = &one;
+  }
+  return best;
 }
 
 }  // namespace
@@ -186,7 +192,7 @@ bool are_loaded(const modes::Scene& scene, const modes::Plan& plan, const std::v
     const modes::SceneStructure& wanted = scene.structures[n];
     const LoadedStructure* const known = find_loaded(wanted, reach_of(scene, wanted), before);
     // Its fields are kept after each of its edits.
-    return known != nullptr && std::ranges::mismatch(wanted.edits, known->edits).in1 == wanted.edits.end();
+    return known != nullptr && common_edits(wanted, *known) == wanted.edits.size();
   });
 }
 

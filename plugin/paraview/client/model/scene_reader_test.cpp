@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,9 @@ struct SceneReading : testing::WithApplication, ::testing::Test {
       mode.strength_n = modes::TransferFunction({{0, 1}});
       scene.modes.push_back(mode);
     };
+  }
+  std::shared_ptr<const io::DistanceField> felt_field() const {
+    return session.live().felt().structures.front().distance;
   }
   double felt_margin_mm() const {
     for (const modes::Mode& mode : session.live().scene().modes) {
@@ -86,6 +90,28 @@ TEST_F(SceneReading, NoChangeReadsFilesOnTheThreadThatAsks) {
     EXPECT_FALSE(model.is_waiting());
     EXPECT_EQ(session.live().felt().structures.size(), change.second > 0 ? 1U : 0U);
   }
+}
+
+/// A stroke on a structure that is felt already: its field is made by another thread, once.
+TEST_F(SceneReading, AnEditOfWhatIsFeltIsMadeInTheBackground) {
+  model.edit(QStringLiteral("Keep out"), keeping_out(2));
+  ASSERT_TRUE(comes([&] { return felt_margin_mm() == 2; }));
+  const auto before = felt_field();
+  for (std::size_t count = 1; count <= 3; ++count) {
+    model.edit(QStringLiteral("Add"), [](modes::Scene& scene) {
+      std::vector<io::Edit>& edits = scene.structures.front().edits;
+      edits.emplace_back(io::AddEdit{{.path_mm = {{110, 0, 3.0 * static_cast<double>(edits.size())}}, .radius_mm = 3}});
+    });
+    EXPECT_TRUE(model.is_waiting());
+    ASSERT_TRUE(comes([&] { return !model.is_waiting(); }));
+    ASSERT_EQ(session.live().felt().structures.size(), 1U);
+    EXPECT_EQ(session.live().felt().structures.front().edits.size(), count);
+  }
+  EXPECT_NE(felt_field(), before);
+  // What it was is kept: nothing is to be made for it.
+  model.edit(QStringLiteral("As in the file"), [](modes::Scene& scene) { scene.structures.front().edits.clear(); });
+  EXPECT_FALSE(model.is_waiting());
+  EXPECT_EQ(felt_field(), before);
 }
 
 TEST_F(SceneReading, AFileThatIsGoneRefusesTheChangeAndSaysWhich) {
