@@ -43,7 +43,7 @@ struct SafetyLimits {
   double ramp_time = 0.5;                        ///< s from armed to full force
   double fall_time = ceiling::fall_s;            ///< s from full force to zero after a fault or when disarmed
   double speed = ceiling::speed_m_per_s;         ///< m/s: a faster hand is a fault
-  double speed_smoothing_time = 2e-3;               ///< s: low pass, so that a position step does not count as speed
+  double speed_smoothing_time = 2e-3;            ///< s: low pass, so that a position step does not count as speed
   double force_age = ceiling::force_age_s;       ///< s: an older force counts as zero
   double pose_age = ceiling::pose_age_s;         ///< s without a new pose: the force counts as zero
   double stall_time = ceiling::stall_s;          ///< s: a fault if a force or pose is older, or a tick later
