@@ -7,6 +7,7 @@ namespace palpate::plugin {
 
 bool SceneReader::read(const modes::Scene& scene, std::function<void(const QString& error)> done) {
   if (!live_.scan()) return false;
+  if (std::exchange(was_read_, false) && held_of_.lock() == live_.scan()) return false;
   try {
     if (live_.has_read(scene)) return false;
   } catch (const std::exception&) {
@@ -19,7 +20,9 @@ bool SceneReader::read(const modes::Scene& scene, std::function<void(const QStri
       held_.insert(held_.end(), read->structures.begin(), read->structures.end());
       live_.offer(PreparedScene(*read));
     }
+    was_read_ = read != nullptr;
     done(error);
+    was_read_ = false;
   });
   return true;
 }

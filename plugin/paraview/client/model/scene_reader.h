@@ -19,13 +19,15 @@ class SceneReader {
   explicit SceneReader(LiveSession& live) : live_(live) {}
 
   /// Offers to the session what the scene needs, and calls `done` once, with an error if it cannot be read. False:
-  /// there is nothing to wait for. Another scene takes the place of the one that is being read for.
+  /// there is nothing to wait for. A scene is not read twice on the same scan: whoever asked asks again in `done`.
+  /// Another scene takes the place of the one that is being read for.
   bool read(const modes::Scene& scene, std::function<void(const QString& error)> done);
 
  private:
   LiveSession& live_;
   std::vector<LoadedStructure> held_;
   std::weak_ptr<const io::Volume> held_of_;
+  bool was_read_ = false;  // the scene that is asked about next
   Job job_;
 };
 
