@@ -289,7 +289,7 @@ class Bench:
             if mutant not in left:
                 mutant.place, mutant.marked = None, True
 
-    def look_at_suites(self, jobs, near=None):
+    def look_at_suites(self, jobs, named, near=None):
         """How long each suite takes, and which places it runs. Where some are near, others only if they are quick."""
         listed = subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
         suites = [line.split()[0].rstrip(".") for line in listed.splitlines()
@@ -308,7 +308,7 @@ class Bench:
                 elif is_near or code != TIMED_OUT:
                     print(f"{suite} fails without any slip, and is left out:\n{self.log()[-800:]}", flush=True)
 
-        serve(look, [suite for suite in suites if not re.search(r"Shared|DISABLED_", suite)], jobs, time.time() + 7200)
+        serve(look, [suite for suite in suites if named.search(suite) and not re.search(r"Shared|DISABLED_", suite)], jobs, time.time() + 7200)
         print(f"{self.target}: {len(self.suites)} suites take {sum(seconds for seconds, _ in self.suites.values()):.0f} s", flush=True)
 
     def outcome_of(self, tests, seconds, **more):
@@ -372,7 +372,7 @@ def serve(function, items, jobs, deadline):
         thread.join()
 
 
-def try_slips(bench, mutants, account, jobs, seconds, quickly=False):
+def try_slips(bench, mutants, account, options):
     lock = threading.Lock()
 
     def tell(mutant, outcome):
@@ -380,15 +380,16 @@ def try_slips(bench, mutants, account, jobs, seconds, quickly=False):
             account.tell(mutant, outcome)
 
     bench.compile_together(mutants)
-    bench.look_at_suites(jobs, set().union(*(suites_near(mutant.path) for mutant in mutants)) if quickly else None)
+    near = set().union(*(suites_near(mutant.path) for mutant in mutants)) if options.quickly else None
+    bench.look_at_suites(options.jobs, re.compile(options.suites), near)
     alone = [mutant for mutant in mutants if mutant.marked]
     together = [mutant for mutant in mutants if not mutant.marked]
     print(f"{bench.target}: {len(together)} slips are chosen at run time, {len(alone)} are compiled alone", flush=True)
     for mutant in [mutant for mutant in alone if mutant.no_code]:
         tell(mutant, "not C++")
         alone.remove(mutant)
-    deadline = time.time() + seconds
-    serve(lambda mutant: tell(mutant, bench.judge(mutant, quickly=quickly, PALPATE_SLIP=str(mutant.place))), together, jobs, deadline)
+    deadline = time.time() + options.seconds
+    serve(lambda mutant: tell(mutant, bench.judge(mutant, quickly=options.quickly, PALPATE_SLIP=str(mutant.place))), together, options.jobs, deadline)
     serve(lambda mutant: tell(mutant, bench.judge_alone(mutant)), alone, 1, deadline)
 
 
@@ -440,6 +441,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
     parser.add_argument("--again", metavar="FILE", help="only those that survived in the run that printed this file")
+    parser.add_argument("--suites", default="", metavar="REGEX", help="judge by the suites that match alone")
     parser.add_argument("--without-headers", action="store_true",
                         help="leave out the slips of the sample that lie in headers, after which most is compiled anew")
     parser.add_argument("--equivalents", action="store_true",
@@ -465,7 +467,7 @@ def main():
             account.tell(mutant, "equivalent")
     for target, modules in sorted({target_of(mutant.path) for mutant in judged}):
         own = [mutant for mutant in judged if target_of(mutant.path)[0] == target][:PLACES]
-        try_slips(Bench(target, modules), own, account, options.jobs, options.seconds, options.quickly)
+        try_slips(Bench(target, modules), own, account, options)
     seen, survived = account.count(*SEEN), account.count(*SURVIVED)
     score = seen / (seen + survived) if seen + survived else 1.0
     print(f"\n{account.table()}\n")
