@@ -22,6 +22,17 @@ bool may_be_set(const Archive& archive) {
   return true;
 }
 
+/// The ports that PS3.8 and IANA name, and what the page of options says.
+TEST(SettingsLimits, WhatIsNotSetIsAsDocumented) {
+  const Archive archive;
+  EXPECT_EQ(archive.port, 104);
+  EXPECT_FALSE(archive.uses_get);
+  EXPECT_EQ(archive.listen_address, "0.0.0.0");
+  EXPECT_EQ(archive.listen_port, 11112);
+  EXPECT_EQ(archive.silence_s, 30);
+  EXPECT_FALSE(archive.tls.used);
+}
+
 TEST(SettingsLimits, NumbersAreWithinTheirEnds) {
   for (const auto& [port, fits] : {std::pair{-1, false}, {0, false}, {1, true}, {65535, true}, {65536, false}}) {
     for (int Archive::*const which : {&Archive::port, &Archive::listen_port}) {
