@@ -263,6 +263,20 @@ TEST(OddArchive, ACanceledFetchEndsSoon) {
   EXPECT_EQ(odd.entries(), 0U);
 }
 
+/// Also where the archive has called back and says nothing.
+TEST(OddArchive, ACanceledMoveEndsSoon) {
+  OddArchive odd("falls-silent-at-move");
+  odd.archive().uses_get = false;
+  odd.archive().silence_s = 60;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(
+      fetch(odd.archive(), {"1.2.3"}, odd.folder(), {},
+            [&](const FetchProgress&) { return std::chrono::steady_clock::now() - begin < std::chrono::seconds(2); }),
+      Cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  EXPECT_EQ(odd.entries(), 0U);
+}
+
 TEST(OddArchive, ACanceledSendEndsSoon) {
   const fs::path series = testing::made_series() / testing::ct;
   OddArchive silent("silent-at-store");

@@ -22,7 +22,7 @@ bool may_be_set(const Archive& archive) {
   return true;
 }
 
-/// The ports that PS3.8 and IANA name, and what the page of options says.
+/// The ports that PS3.8 and IANA name.
 TEST(SettingsLimits, WhatIsNotSetIsAsDocumented) {
   const Archive archive;
   EXPECT_EQ(archive.port, 104);

@@ -5,6 +5,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <vector>
 
@@ -26,6 +27,17 @@ TEST(SlowArchive, SendsAnImageThatTakesLongerThanTheSilence) {
   odd.archive().uses_get = false;
   odd.archive().silence_s = silence_s;
   EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, 1U);
+}
+
+/// Anyone may connect to the port that images come to. One who says nothing is let go after 10 s, and the images come.
+TEST(SlowArchive, OneWhoSaysNothingIsLetGo) {
+  OddArchive odd("calls-mutely-first");
+  odd.archive().uses_get = false;
+  odd.archive().silence_s = 30;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, 1U);
+  EXPECT_GT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(9));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(25)) << "5 s of them for the image";
 }
 
 TEST(SlowArchive, TakesAFileThatTakesLongerThanTheSilence) {

@@ -155,6 +155,8 @@ void StoreServer::serve(int socket) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();  // before the archive can tell of it
     }
+    // Nothing answers an abort. DCMTK reads until the peer closes, which one that is silent does late.
+    ::shutdown(socket, SHUT_RD);
     ASC_abortAssociation(net.association);
     throw;
   }

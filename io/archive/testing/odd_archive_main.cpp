@@ -76,6 +76,20 @@ int call(int port, std::string calling, std::string called = "PALPATE") {
   return socket;
 }
 
+/// Connects to the store service and says nothing, for a minute or until it is let go.
+void call_mutely(int port) {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+    pollfd heard{socket, POLLIN, 0};
+    poll(&heard, 1, 60'000);
+  }
+  close(socket);
+}
+
 /// What the store service says to someone whom it does not know, or who does not know it: 3 rejects, and why.
 void call_as_stranger(int port, bool knows_us) {
   const int socket = knows_us ? call(port, "STRANGER") : call(port, "ODD", "SOMEONE");
@@ -311,7 +325,13 @@ class Serving {
       talk(port_, uid_of(request.keys.at(0x0020000D)), behavior_ == "tells-and-asks");
       return respond(socket_, request, 0, {}, 1);
     }
-    if (behavior_ == "sends-slowly") {
+    if (behavior_ == "falls-silent-at-move") {
+      const int socket = call(port_, "ODD");
+      if (socket >= 0) read_pdu(socket);
+      std::this_thread::sleep_for(std::chrono::seconds(60));
+    }
+    if (behavior_ == "sends-slowly" || behavior_ == "calls-mutely-first") {
+      if (behavior_ == "calls-mutely-first") call_mutely(port_);
       send_slowly(port_, uid_of(request.keys.at(0x0020000D)));
       return respond(socket_, request, 0, {}, 1);
     }
