@@ -29,9 +29,10 @@ TEST(SlowArchive, SendsAnImageThatTakesLongerThanTheSilence) {
   EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder()).files, 1U);
 }
 
-/// Anyone may connect to the port that images come to. One who says nothing is let go after 10 s, and the images come.
-TEST(SlowArchive, OneWhoSaysNothingIsLetGo) {
-  OddArchive odd("calls-mutely-first");
+/// Anyone may connect to the port that images come to. One who has not asked for an association after 10 s is let go,
+/// though he goes on to send bytes, and the images come.
+TEST(SlowArchive, OneWhoAsksTooSlowlyIsLetGo) {
+  OddArchive odd("calls-hesitantly-first");
   odd.archive().uses_get = false;
   odd.archive().silence_s = 30;
   const auto begin = std::chrono::steady_clock::now();

@@ -76,16 +76,18 @@ int call(int port, std::string calling, std::string called = "PALPATE") {
   return socket;
 }
 
-/// Connects to the store service and says nothing, for a minute or until it is let go.
-void call_mutely(int port) {
+/// Connects to the store service and begins to ask for an association, a byte every 0.2 s, for a minute or until it is
+/// let go.
+void call_hesitantly(int port) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+    write_all(socket, std::string("\1\0\0\0\4\0", 6));
     pollfd heard{socket, POLLIN, 0};
-    poll(&heard, 1, 60'000);
+    for (int n = 0; n < 300 && poll(&heard, 1, 200) == 0; ++n) write_all(socket, "x");
   }
   close(socket);
 }
@@ -330,8 +332,8 @@ class Serving {
       if (socket >= 0) read_pdu(socket);
       std::this_thread::sleep_for(std::chrono::seconds(60));
     }
-    if (behavior_ == "sends-slowly" || behavior_ == "calls-mutely-first") {
-      if (behavior_ == "calls-mutely-first") call_mutely(port_);
+    if (behavior_ == "sends-slowly" || behavior_ == "calls-hesitantly-first") {
+      if (behavior_ == "calls-hesitantly-first") call_hesitantly(port_);
       send_slowly(port_, uid_of(request.keys.at(0x0020000D)));
       return respond(socket_, request, 0, {}, 1);
     }
