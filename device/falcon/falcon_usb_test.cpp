@@ -260,6 +260,24 @@ TEST(FalconUsb, LeavesNothingBehind) {
   }
 }
 
+/// The library still writes to one that has not ended: after a second the link is closed, and that one is left to it.
+TEST(FalconUsb, ATransferThatNeverEndsIsNotFreed) {
+  for (const bool sending : {false, true}) {
+    FakeUsb usb;
+    auto link = open_falcon_usb("");
+    usb.takes = false;
+    if (sending) link->send(Bytes(16));
+    usb.slow_cancels = 1'000'000'000;
+    const double begin = monotonic_time();
+    link.reset();
+    EXPECT_GE(monotonic_time() - begin, 1);
+    EXPECT_LT(monotonic_time() - begin, 5);
+    EXPECT_EQ(usb.transfers, sending ? 2 : 1);
+    EXPECT_EQ(usb.misuses, 0);
+    EXPECT_EQ(usb.claims + usb.handles + usb.contexts, 0);
+  }
+}
+
 TEST(FalconUsb, OneThatCannotBeOpenedIsSaidAndLeavesNothing) {
   const struct {
     std::function<void(FakeUsb&)> what;

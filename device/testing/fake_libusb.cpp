@@ -91,6 +91,7 @@ FakeUsb::FakeUsb() {
 FakeUsb::~FakeUsb() {
   usb = nullptr;
   listed.clear();
+  for (const libusb_transfer* left : pending) delete left;  // never ended, and so nobody else's
   pending.clear();
   cancelled.clear();
 }
@@ -197,6 +198,7 @@ libusb_transfer* LIBUSB_CALL libusb_alloc_transfer(int packets) {
 }
 void LIBUSB_CALL libusb_free_transfer(libusb_transfer* transfer) {
   if (usb == nullptr) return real<decltype(&libusb_free_transfer)>("libusb_free_transfer")(transfer);
+  if (std::erase(pending, transfer) > 0) ++usb->misuses;  // the library goes on to use it
   --usb->transfers;
   delete transfer;
 }

@@ -59,7 +59,7 @@ class FakeUsb {
   int most_read = 0;          ///< bytes, of a transfer from the device
   int opened = -1;            ///< the last device that was opened
   bool detaches = false;      ///< the kernel's driver is let go
-  int misuses = 0;            ///< calls without a context
+  int misuses = 0;            ///< calls without a context, and transfers freed that have not ended
 
   // What is held.
   int contexts = 0, lists = 0, handles = 0, transfers = 0, claims = 0;
