@@ -81,10 +81,11 @@ function(palpate_together target)
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
     cmake_path(GET name PARENT_PATH folder)
     string(MAKE_C_IDENTIFIER "${folder}" folder)
-    # Not more than this at once: two cores are to share the work, and a compiler its memory.
+    # Not more than this at once: two cores are to share the work, and a compiler its memory (1 GiB). Thirty instead of twelve
+    # take an eighth less time.
     math(EXPR count "0${count_${folder}} + 1")
     set(count_${folder} ${count})
-    math(EXPR part "${count} / 12")
+    math(EXPR part "${count} / 30")
     set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${folder}_${part})
   endforeach()
 endfunction()

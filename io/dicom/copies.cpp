@@ -13,10 +13,6 @@
 namespace palpate::io::internal {
 namespace {
 
-std::string name_of(const FileHeader& file) {
-  return file.path.filename().string();
-}
-
 bool same_place_and_time(const FileHeader& a, const FileHeader& b) {
   constexpr double rounding = 1e-3;  // mm
   const auto same_place = [](const Plane& x, const Plane& y) {

@@ -320,4 +320,8 @@ FileHeader read_file_header(const std::filesystem::path& stored_at) {
   return header;
 }
 
+std::string name_of(const FileHeader& file) {
+  return file.path.filename().string();
+}
+
 }  // namespace palpate::io::internal

@@ -144,6 +144,9 @@ struct FileHeader {
   Text defect;                ///< why its pixels cannot be read (truncated); empty where they can
 };
 
+/// The file's name without its folder, for messages.
+std::string name_of(const FileHeader& file);
+
 /// Reads a file up to its pixel data. Throws DicomError with a reason (that does not name the file) where it holds no
 /// image.
 FileHeader read_file_header(const std::filesystem::path& stored_at);

@@ -24,10 +24,6 @@ using Slice = SeriesSource::Slice;
 
 constexpr double spacing_tolerance = 1e-3;  // half a pixel at the end of 512
 
-std::string name_of(const FileHeader& file) {
-  return file.path.filename().string();
-}
-
 /// Places are comparable where both files give them in one frame of reference; where one does not say, its series does.
 bool share_frame_of_reference(const FileHeader& a, const FileHeader& b) {
   return a.frame_of_reference == b.frame_of_reference || a.frame_of_reference.empty() || b.frame_of_reference.empty();

@@ -65,7 +65,7 @@ void write_zeros(const fs::path& path, std::uint32_t edge, std::uint64_t bytes) 
   for (std::uint64_t n = 0; n < bytes >> 20; ++n) file << mib;
 }
 
-long peak_mib() {
+long most_mib_held() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss / 1024;
@@ -84,7 +84,7 @@ TEST(Inflation, ABombIsRefusedBeforeItIsInflated) {
   write_zeros(folder / "bomb", edge, std::uint64_t{2} * edge * edge);
   const auto size = fs::file_size(folder / "bomb");
   ASSERT_LT(size, 5'000'000U);
-  const long before = peak_mib();
+  const long before = most_mib_held();
   Catalogue found;
   EXPECT_LT(seconds_of([&] { found = find_series(std::array{folder.path()}); }), 5);
   ASSERT_EQ(found.skipped.size(), 1U);
@@ -92,7 +92,7 @@ TEST(Inflation, ABombIsRefusedBeforeItIsInflated) {
                                          " bytes are said to inflate to 3625 MiB; if that is right, export it "
                                          "uncompressed");
   if (is_sanitized) return;
-  EXPECT_LT(peak_mib() - before, 64);
+  EXPECT_LT(most_mib_held() - before, 64);
 }
 
 // An empty slice deflates a thousandfold: what is small anyway is read.

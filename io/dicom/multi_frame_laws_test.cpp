@@ -22,14 +22,14 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr int columns = 6, rows = 4;
+constexpr int law_columns = 6, law_rows = 4;
 
 /// Frame f has the values 1000 f + 10 i + j.
 std::vector<Uint16> pixels_of(std::size_t frames) {
   std::vector<Uint16> pixels;
   for (std::size_t f = 0; f < frames; ++f) {
-    for (int n = 0; n < columns * rows; ++n) {
-      pixels.push_back(static_cast<Uint16>(1000 * static_cast<int>(f) + 10 * (n % columns) + n / columns));
+    for (int n = 0; n < law_columns * law_rows; ++n) {
+      pixels.push_back(static_cast<Uint16>(1000 * static_cast<int>(f) + 10 * (n % law_columns) + n / law_columns));
     }
   }
   return pixels;
@@ -169,8 +169,8 @@ TEST(MultiFrameLaws, EachSliceHasThePixelsOfItsFrameInEveryUncompressedTransferS
       ASSERT_EQ(volume.geometry.dimensions.z, 5);
       for (std::size_t f = 0; f < heights.size(); ++f) {
         const int k = static_cast<int>(heights[f] / 2);
-        for (int n = 0; n < columns * rows; ++n) {
-          const int i = n % columns, j = n / columns;
+        for (int n = 0; n < law_columns * law_rows; ++n) {
+          const int i = n % law_columns, j = n / law_columns;
           EXPECT_EQ(volume.value_at(i, j, k), 1000 * static_cast<int>(f) + 10 * i + j) << f;
         }
       }
@@ -180,7 +180,7 @@ TEST(MultiFrameLaws, EachSliceHasThePixelsOfItsFrameInEveryUncompressedTransferS
 
 // Two files of one instance, alike but for a single pixel.
 TEST(MultiFrameLaws, CopiesAreToldFromOnesWithOtherPixelsInWhateverFrameThese) {
-  constexpr std::size_t frames = 4, of_frame = std::size_t{columns} * rows;
+  constexpr std::size_t frames = 4, of_frame = std::size_t{law_columns} * law_rows;
   const auto reason_where = [&](std::size_t pixel) {
     const TestFolder folder;
     for (const bool is_copy : {false, true}) {

@@ -10,7 +10,7 @@
 namespace palpate::io::internal {
 namespace {
 
-[[noreturn]] void refuse(const Text& why) {
+[[noreturn]] void refuse_rle(const Text& why) {
   throw DicomError(say("rle", why));
 }
 
@@ -24,13 +24,13 @@ void unpack(std::span<const std::byte> packed, std::span<std::uint8_t> bytes) {
   std::size_t from = 0;
   std::size_t to = 0;
   while (to < bytes.size()) {
-    if (from >= packed.size()) refuse(say("rle-ends-early"));
+    if (from >= packed.size()) refuse_rle(say("rle-ends-early"));
     const auto code = std::to_integer<std::size_t>(packed[from++]);
     if (code == 128) continue;
     const bool run = code > 128;
     const std::size_t count = run ? 257 - code : code + 1;
     const std::size_t used = run ? 1 : count;
-    if (used > packed.size() - from || count > bytes.size() - to) refuse(say("rle-does-not-fit"));
+    if (used > packed.size() - from || count > bytes.size() - to) refuse_rle(say("rle-does-not-fit"));
     for (std::size_t i = 0; i < count; ++i) bytes[to + i] = std::to_integer<std::uint8_t>(packed[from + (run ? 0 : i)]);
     from += used;
     to += count;
@@ -42,14 +42,14 @@ void unpack(std::span<const std::byte> packed, std::span<std::uint8_t> bytes) {
 std::vector<std::byte> unpack_rle(const PixelFormat& format, std::span<const std::byte> bytes) {
   constexpr std::size_t header_size = 64;
   const auto segments = static_cast<std::size_t>(format.bits_allocated / 8);
-  if (bytes.size() < header_size) refuse(say("rle-is-missing"));
-  if (little_endian(bytes, 0) != segments) refuse(say("rle-not-one-a-byte"));
+  if (bytes.size() < header_size) refuse_rle(say("rle-is-missing"));
+  if (little_endian(bytes, 0) != segments) refuse_rle(say("rle-not-one-a-byte"));
   std::vector<std::byte> pixels(format.bytes_per_frame());
   std::vector<std::uint8_t> segment(pixels.size() / segments);
   for (std::size_t s = 0; s < segments; ++s) {
     const std::size_t start = little_endian(bytes, 4 + 4 * s);
     const std::size_t end = s + 1 < segments ? little_endian(bytes, 8 + 4 * s) : bytes.size();
-    if (start < header_size || start > end || end > bytes.size()) refuse(say("rle-outside-the-file"));
+    if (start < header_size || start > end || end > bytes.size()) refuse_rle(say("rle-outside-the-file"));
     unpack(bytes.subspan(start, end - start), segment);
     const std::size_t at = segments - 1 - s;  // the most significant byte first
     for (std::size_t i = 0; i < segment.size(); ++i) pixels[segments * i + at] = std::byte{segment[i]};

@@ -19,7 +19,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr int columns = 6, rows = 4;
+constexpr int wide_columns = 6, wide_rows = 4;
 
 /// What lies at (i, j, k): beyond 16 bits, and negative where `is_signed`.
 double truth(int i, int j, int k, bool is_signed) {
@@ -30,8 +30,8 @@ void expect_truth(const TestFolder& folder, bool is_signed, double slope = 1, do
   const Volume volume = load(only_series_in(folder));
   EXPECT_THAT(volume.warnings, IsEmpty());
   for (int k = 0; k < 3; ++k) {
-    for (int j = 0; j < rows; ++j) {
-      for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < wide_rows; ++j) {
+      for (int i = 0; i < wide_columns; ++i) {
         const double value = slope * truth(i, j, k, is_signed) + intercept;
         EXPECT_NEAR(volume.value_at(i, j, k), value, 1e-6 * std::abs(value)) << i << " " << j << " " << k;
       }
@@ -41,8 +41,8 @@ void expect_truth(const TestFolder& folder, bool is_signed, double slope = 1, do
 
 void put_words(DcmDataset& d, int k, bool is_signed) {
   std::vector<Uint16> words;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
+  for (int j = 0; j < wide_rows; ++j) {
+    for (int i = 0; i < wide_columns; ++i) {
       const auto word = static_cast<std::uint32_t>(static_cast<std::int64_t>(truth(i, j, k, is_signed)));
       words.push_back(static_cast<Uint16>(word));
       words.push_back(static_cast<Uint16>(word >> 16));
@@ -90,7 +90,7 @@ TEST(WideValues, IntegersAreCutOutOfTheirWords) {
           put(d, DCM_BitsStored, stored);
           put(d, DCM_HighBit, high);
           std::vector<Uint16> words;
-          for (int n = 0; n < columns * rows; ++n) {
+          for (int n = 0; n < wide_columns * wide_rows; ++n) {
             const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(value_at(n)));
             const std::uint64_t mask = (std::uint64_t{1} << stored) - 1;
             const int below = high + 1 - stored;
@@ -102,8 +102,9 @@ TEST(WideValues, IntegersAreCutOutOfTheirWords) {
         };
       });
       const Volume volume = load(only_series_in(folder));
-      for (int n = 0; n < columns * rows; ++n) {
-        ASSERT_EQ(volume.value_at(n % columns, n / columns, 1), static_cast<double>(static_cast<float>(value_at(n))))
+      for (int n = 0; n < wide_columns * wide_rows; ++n) {
+        ASSERT_EQ(volume.value_at(n % wide_columns, n / wide_columns, 1),
+                  static_cast<double>(static_cast<float>(value_at(n))))
             << stored << " bits up to " << high << ", " << n;
       }
     }
@@ -128,8 +129,8 @@ TEST(WideValues, IntegersOf32BitsCompressedByMoreThanRunLengthsAreRefused) {
 template <typename Number>
 void put_numbers(DcmDataset& d, int k, double hole) {
   std::vector<Number> numbers;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) numbers.push_back(static_cast<Number>(truth(i, j, k, true) + 0.25));
+  for (int j = 0; j < wide_rows; ++j) {
+    for (int i = 0; i < wide_columns; ++i) numbers.push_back(static_cast<Number>(truth(i, j, k, true) + 0.25));
   }
   if (k == 1) numbers[0] = static_cast<Number>(hole);
   d.findAndDeleteElement(DCM_PixelData);
@@ -190,8 +191,8 @@ TEST(WideValues, FloatingPointPaddingMayBeARange) {
       });
       const Volume volume = load(only_series_in(folder));
       for (int k = 0; k < 3; ++k) {
-        for (int j = 0; j < rows; ++j) {
-          for (int i = 0; i < columns; ++i) {
+        for (int j = 0; j < wide_rows; ++j) {
+          for (int i = 0; i < wide_columns; ++i) {
             const double here = truth(i, j, k, true) + 0.25;
             EXPECT_EQ(volume.is_padding(i, j, k), here >= low && here <= high) << i << ' ' << j << ' ' << k;
           }
@@ -250,7 +251,7 @@ TEST(WideValues, AParametricMapHasItsUnit) {
     });
     put(d, DCM_SOPClassUID, UID_ParametricMapStorage);
     std::vector<Float32> numbers;
-    for (int n = 0; n < 3 * rows * columns; ++n) numbers.push_back(static_cast<Float32>(n));
+    for (int n = 0; n < 3 * wide_rows * wide_columns; ++n) numbers.push_back(static_cast<Float32>(n));
     d.findAndDeleteElement(DCM_PixelData);
     put(d, DCM_BitsAllocated, 32);
     succeed(d.putAndInsertFloat32Array(DcmTag(0x7FE0, 0x0008, EVR_OF), numbers.data(), numbers.size()));
@@ -286,8 +287,8 @@ TEST(WideValues, AModalityLookUpTableIsApplied) {
   EXPECT_EQ(series.unit, "HU");
   const Volume volume = load(series);
   const auto expected = [](int stored) { return stored < 12 ? 0 : stored > 19 ? 49 : (stored - 12) * (stored - 12); };
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) EXPECT_EQ(volume.value_at(i, j, 1), expected(10 + i + 3 * j));
+  for (int j = 0; j < wide_rows; ++j) {
+    for (int i = 0; i < wide_columns; ++i) EXPECT_EQ(volume.value_at(i, j, 1), expected(10 + i + 3 * j));
   }
 }
 
@@ -307,8 +308,8 @@ TEST(WideValues, AModalityLookUpTableMayBeginBelowZeroAndHoldEveryValue) {
         };
       });
       const Volume volume = load(only_series_in(folder));
-      for (int j = 0; j < rows; ++j) {
-        for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j < wide_rows; ++j) {
+        for (int i = 0; i < wide_columns; ++i) {
           const int stored = (is_signed ? -3 : 2) + i + j % 2;
           EXPECT_EQ(volume.value_at(i, j, 1), static_cast<Uint16>(3 * (stored - first) + 1)) << is_signed << whole;
         }
@@ -325,7 +326,7 @@ TEST(WideValues, ATableOfBytesMayBePacked) {
   });
   const Volume volume = load(find_in(folder).series.at(0));
   EXPECT_EQ(volume.unit, "");
-  for (int i = 0; i < columns; ++i) EXPECT_EQ(volume.value_at(i, 0, 0), 10 + i);
+  for (int i = 0; i < wide_columns; ++i) EXPECT_EQ(volume.value_at(i, 0, 0), 10 + i);
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(Gradient, IsThePlaneOfItsDefinitionOnEveryGridUpToEdgesAndPadding) {
   }
 }
 
-bool same_bits(const glm::vec3& a, const glm::vec3& b) {
+bool same_gradient_bits(const glm::vec3& a, const glm::vec3& b) {
   const auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
@@ -110,7 +110,7 @@ bool same_bits(const glm::vec3& a, const glm::vec3& b) {
 void expect_the_same_bits_everywhere(const GradientKernel& kernel, const Volume& volume) {
   const auto whole = kernel.whole({}, 1);
   const auto with_two_threads = kernel.whole({}, 2);
-  ASSERT_TRUE(std::equal(whole.begin(), whole.end(), with_two_threads.begin(), same_bits));
+  ASSERT_TRUE(std::equal(whole.begin(), whole.end(), with_two_threads.begin(), same_gradient_bits));
   std::mt19937 random(5);
   const glm::ivec3 size = volume.geometry.dimensions;
   for (int n = 0; n < 60; ++n) {
@@ -127,7 +127,8 @@ void expect_the_same_bits_everywhere(const GradientKernel& kernel, const Volume&
       for (int j = 0; j < block.size.y; ++j) {
         for (int i = 0; i < block.size.x; ++i) {
           const glm::ivec3 v = block.first + glm::ivec3(i, j, k);
-          ASSERT_TRUE(same_bits(*got++, whole[volume.offset(v.x, v.y, v.z)])) << v.x << ' ' << v.y << ' ' << v.z;
+          ASSERT_TRUE(same_gradient_bits(*got++, whole[volume.offset(v.x, v.y, v.z)]))
+              << v.x << ' ' << v.y << ' ' << v.z;
         }
       }
     }

@@ -13,7 +13,7 @@ namespace palpate::io {
 namespace {
 
 using testdata::Grid;
-constexpr FieldSet both = FieldSet::value | FieldSet::gradient;
+constexpr FieldSet wanted = FieldSet::value | FieldSet::gradient;
 
 std::shared_ptr<Volume> share(Volume volume) {
   return std::make_shared<Volume>(std::move(volume));
@@ -73,11 +73,11 @@ TEST(VolumeFields, LinearFieldIsExactUpToTheEdgeWhateverTheGrid) {
   thick.spacing = {0.6, 0.8, 5};
   for (const Grid& grid : {plain, tilted, uneven, thick}) {
     const auto volume = linear_volume(grid);
-    const VolumeFields fields(volume, both, default_gradient_scale_mm(volume->geometry));
+    const VolumeFields fields(volume, wanted, default_gradient_scale_mm(volume->geometry));
     const Vec3 last(volume->geometry.dimensions - 1);
     for (const Vec3& at : {Vec3(0), Vec3(1), Vec3(0.5, 0.5, 0.5), Vec3(1, 0, 0.3), Vec3(0.25, 1, 0)}) {
       const Vec3 position = volume->geometry.to_patient(at * last);
-      const Sample s = fields.sample(position, both);
+      const Sample s = fields.sample(position, wanted);
       ASSERT_TRUE(s.inside);
       EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), position), 1e-4);
       EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 5)), 2e-4);
@@ -87,12 +87,12 @@ TEST(VolumeFields, LinearFieldIsExactUpToTheEdgeWhateverTheGrid) {
 
 TEST(VolumeFields, HomogeneousTissueHasNoGradientNotEvenARoundingError) {
   const auto volume = share(testdata::scan(testdata::Phantom{1234, {}}, testdata::make_geometry(small())));
-  const VolumeFields fields(volume, both, 1.5);
-  const Sample s = fields.sample({0.3, -0.2, 0.1}, both);
+  const VolumeFields fields(volume, wanted, 1.5);
+  const Sample s = fields.sample({0.3, -0.2, 0.1}, wanted);
   EXPECT_EQ(s.value, 1234);
   EXPECT_EQ(s.gradient, Vec3(0));
   // Where the neighborhood ends at the edge, one of single precision remains: 1e-7 of the value.
-  EXPECT_LT(glm::length(fields.sample({7, 6, 5.5}, both).gradient), 2e-4);
+  EXPECT_LT(glm::length(fields.sample({7, 6, 5.5}, wanted).gradient), 2e-4);
 }
 
 TEST(VolumeFields, NeitherTheEdgeNorPaddingNorAGapIsABoundary) {
@@ -101,7 +101,7 @@ TEST(VolumeFields, NeitherTheEdgeNorPaddingNorAGapIsABoundary) {
   grid.missing = {10, 11, 12};
   const auto volume =
       share(testdata::scan(testdata::Phantom{1234, {}}, testdata::make_geometry(grid), {.circle_radius = 14}));
-  const VolumeFields fields(volume, both, 2);
+  const VolumeFields fields(volume, wanted, 2);
   int inside = 0;
   int outside = 0;
   for (int i = 0; i < 37; ++i) {
@@ -110,7 +110,7 @@ TEST(VolumeFields, NeitherTheEdgeNorPaddingNorAGapIsABoundary) {
         const double x = -16 + 0.87 * i;
         const double y = -16 + 1.13 * j;
         const double z = -11 + 0.93 * k;
-        const Sample s = fields.sample({x, y, z}, both);
+        const Sample s = fields.sample({x, y, z}, wanted);
         if (s.inside) {
           ++inside;
           ASSERT_NEAR(s.value, 1234, 1e-9);
@@ -134,9 +134,9 @@ TEST(VolumeFields, NeitherTheEdgeNorPaddingNorAGapIsABoundary) {
 TEST(VolumeFields, NotANumberIsPadding) {
   auto volume = linear_volume(small());
   std::get<std::vector<float>>(volume->voxels)[volume->offset(8, 7, 6)] = std::numeric_limits<float>::quiet_NaN();
-  const VolumeFields fields(volume, both, 1.5);
-  EXPECT_FALSE(fields.sample(volume->geometry.to_patient({7.5, 7, 6}), both).inside);
-  const Sample beside = fields.sample(volume->geometry.to_patient({7, 7, 6}), both);
+  const VolumeFields fields(volume, wanted, 1.5);
+  EXPECT_FALSE(fields.sample(volume->geometry.to_patient({7.5, 7, 6}), wanted).inside);
+  const Sample beside = fields.sample(volume->geometry.to_patient({7, 7, 6}), wanted);
   ASSERT_TRUE(beside.inside);
   EXPECT_LT(glm::length(beside.gradient - Vec3(3, -2, 5)), 1e-3);
 }
@@ -145,8 +145,8 @@ TEST(VolumeFields, ASingleSliceHasAGradientInItsPlane) {
   Grid grid = small();
   grid.size.z = 1;
   const auto volume = linear_volume(grid);
-  const VolumeFields fields(volume, both, 1.5);
-  const Sample s = fields.sample(volume->geometry.to_patient({8.3, 7.1, 0}), both);
+  const VolumeFields fields(volume, wanted, 1.5);
+  const Sample s = fields.sample(volume->geometry.to_patient({8.3, 7.1, 0}), wanted);
   ASSERT_TRUE(s.inside);
   EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 0)), 1e-3);
 }
@@ -195,12 +195,12 @@ TEST(VolumeFields, CubicSplineIsExactOnLinearFieldsUpToTheEdgeAndBesidePadding) 
   for (const Grid& grid : {plain, tilted, thick}) {
     const auto volume = linear_volume(grid);
     std::get<std::vector<float>>(volume->voxels)[volume->offset(8, 7, 6)] = std::numeric_limits<float>::quiet_NaN();
-    const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic});
+    const VolumeFields fields(volume, wanted, 0, {.gradient = GradientMethod::cubic});
     const Vec3 last(volume->geometry.dimensions - 1);
     for (const Vec3& at : {Vec3(0), last, Vec3(0.5), last - 0.25, Vec3(6.5, 7, 6), Vec3(9, 7, 6), Vec3(9.4, 6.3, 5.2),
                            Vec3(8, 8.5, 6)}) {
       const Vec3 position = volume->geometry.to_patient(at);
-      const Sample s = fields.sample(position, both);
+      const Sample s = fields.sample(position, wanted);
       ASSERT_TRUE(s.inside);
       EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), position), 1e-4);
       EXPECT_LT(glm::length(s.gradient - Vec3(3, -2, 5)), 2e-4);
@@ -213,7 +213,7 @@ TEST(VolumeFields, CubicSplineGivesTheGradientOfItsOwnValue) {
   Grid tilted = rotated(small(), {1, 2, 3}, 50);
   tilted.tilt_degrees = 20;
   const auto volume = share(testdata::scan(testdata::make_sphere(5), testdata::make_geometry(tilted), {.noise = 100}));
-  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic});
+  const VolumeFields fields(volume, wanted, 0, {.gradient = GradientMethod::cubic});
   for (int n = 0; n < 50; ++n) {
     const Vec3 at(0.07 * n - 2, 0.05 * n - 1.5, 0.03 * n - 1);
     constexpr double h = 1e-4;
@@ -221,9 +221,9 @@ TEST(VolumeFields, CubicSplineGivesTheGradientOfItsOwnValue) {
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 step(0);
       step[axis] = h;
-      expected[axis] = (fields.sample(at + step, both).value - fields.sample(at - step, both).value) / (2 * h);
+      expected[axis] = (fields.sample(at + step, wanted).value - fields.sample(at - step, wanted).value) / (2 * h);
     }
-    EXPECT_LT(glm::length(fields.sample(at, both).gradient - expected), 1e-3 + 1e-4 * glm::length(expected));
+    EXPECT_LT(glm::length(fields.sample(at, wanted).gradient - expected), 1e-3 + 1e-4 * glm::length(expected));
   }
 }
 
@@ -233,10 +233,10 @@ TEST(VolumeFields, CubicSplineDoesNotReachAcrossMissingSlices) {
   auto volume = linear_volume(grid);
   auto& voxels = std::get<std::vector<float>>(volume->voxels);
   for (std::size_t n = volume->offset(0, 0, 6); n < voxels.size(); ++n) voxels[n] += 1000;  // beyond the gap
-  const VolumeFields fields(volume, both, 0, {.gradient = GradientMethod::cubic});
+  const VolumeFields fields(volume, wanted, 0, {.gradient = GradientMethod::cubic});
   for (const double k : {4.6, 5.0, 6.0, 6.3}) {
     const Vec3 at = volume->geometry.to_patient({8, 7, k});
-    const Sample s = fields.sample(at, both);
+    const Sample s = fields.sample(at, wanted);
     ASSERT_TRUE(s.inside);
     EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), at) + (k < 5.5 ? 0 : 1000), 1e-3) << k;
     EXPECT_NEAR(s.gradient.x, 3, 1e-3) << k;
@@ -246,7 +246,7 @@ TEST(VolumeFields, CubicSplineDoesNotReachAcrossMissingSlices) {
 
 TEST(VolumeFields, CentralDifferencesServeEveryFieldThatNeedsGradients) {
   const auto volume = share(testdata::scan(testdata::make_tube(3, {0, 0, 1}), testdata::make_geometry(small())));
-  constexpr FieldSet all = both | FieldSet::low_high | FieldSet::tube;
+  constexpr FieldSet all = wanted | FieldSet::low_high | FieldSet::tube;
   const FieldOptions central{.gradient = GradientMethod::central_differences, .background = false};
   const VolumeFields fields(volume, all, 1, central);
   const Vec3 at(2.9, 0.3, 0.2);
@@ -266,17 +266,17 @@ TEST(VolumeFields, GivesAndPreparesOnlyWhatIsWanted) {
   const auto volume = linear_volume(small());
   const VolumeFields value_only(volume, FieldSet::value, -1);
   EXPECT_EQ(value_only.available(), FieldSet::value);
-  EXPECT_EQ(value_only.sample({0, 0, 0}, both).gradient, Vec3(0));
+  EXPECT_EQ(value_only.sample({0, 0, 0}, wanted).gradient, Vec3(0));
   EXPECT_EQ(value_only.memory_bytes(), 0U);
-  const VolumeFields fields(volume, both, 1.5);
+  const VolumeFields fields(volume, wanted, 1.5);
   EXPECT_EQ(fields.sample({0, 0, 0}, FieldSet::gradient).value, 0);
 }
 
 TEST(VolumeFields, RefusesWhatItCannotGive) {
   const auto volume = linear_volume(small());
-  EXPECT_THROW(VolumeFields(nullptr, both, 2), std::logic_error);
-  EXPECT_THROW(VolumeFields(volume, both, 0), std::invalid_argument);
-  EXPECT_THROW(VolumeFields(volume, both, 1000), std::invalid_argument);
+  EXPECT_THROW(VolumeFields(nullptr, wanted, 2), std::logic_error);
+  EXPECT_THROW(VolumeFields(volume, wanted, 0), std::invalid_argument);
+  EXPECT_THROW(VolumeFields(volume, wanted, 1000), std::invalid_argument);
   EXPECT_THROW(VolumeFields(volume, FieldSet::vector, 2), std::invalid_argument);
 }
 

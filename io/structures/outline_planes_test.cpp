@@ -107,14 +107,15 @@ std::size_t planes_with_something(const OutlinePlanes& outline) {
   return count;
 }
 
-const Points square{{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+const Points drawn_square{{0, 0}, {20, 0}, {20, 20}, {0, 20}};
 
 // Up to four planes may be missing; where five are, there are two bodies, with empty planes between them.
 TEST(OutlineOfContours, GoesOnThroughFewMissingPlanes) {
   const ObliquePlanes planes;
   for (const int apart : {1, 4, 5, 7}) {
     std::vector<Contour> contours;
-    for (const int k : {0, 1, 2, 2 + apart, 3 + apart, 4 + apart}) contours.push_back(planes.contour(square, 2.0 * k));
+    for (const int k : {0, 1, 2, 2 + apart, 3 + apart, 4 + apart})
+      contours.push_back(planes.contour(drawn_square, 2.0 * k));
     const ContourStack stack = stack_of(contours);
     const OutlinePlanes outline = planes_of(stack, {});
     const auto beyond = static_cast<int>(std::ceil((outline.band_mm + 2 * outline.lattice.spacing.x) / 2));
@@ -129,7 +130,7 @@ TEST(OutlineOfContours, LatticeIsAsFineAsItsPlanes) {
   for (const auto& [step, fine] : {std::pair{0.2, 0.5}, {0.5, 0.5}, {0.7, 0.7}, {1.0, 1.0}, {4.0, 1.0}}) {
     const ObliquePlanes planes;
     std::vector<Contour> contours;
-    for (int k = 0; k < 4; ++k) contours.push_back(planes.contour(square, step * k));
+    for (int k = 0; k < 4; ++k) contours.push_back(planes.contour(drawn_square, step * k));
     const ContourStack stack = stack_of(contours);
     const NodeLattice lattice = planes_of(stack, {}).lattice;
     EXPECT_NEAR(lattice.spacing.x, fine, 1e-9) << step;
@@ -143,7 +144,7 @@ TEST(OutlineOfContours, LatticeIsAsFineAsItsPlanes) {
 TEST(OutlineOfContours, GoesOnWhereTheScanEnds) {
   const ObliquePlanes planes;
   std::vector<Contour> contours;
-  for (int k = 0; k < 8; ++k) contours.push_back(planes.contour(square, 2.0 * k));
+  for (int k = 0; k < 8; ++k) contours.push_back(planes.contour(drawn_square, 2.0 * k));
   const ContourStack stack = stack_of(contours);
   const OutlinePlanes alone = planes_of(stack, {});
   const std::size_t beyond = (alone.node.size() - 8) / 2;
@@ -216,7 +217,7 @@ TEST(ContourStacks, AreOfTheLargestContoursPlane) {
   const ObliquePlanes planes;
   const Points tiny{{5, 5}, {5.2, 5}, {5, 5.2}};
   for (const bool first : {false, true}) {
-    std::vector<Contour> contours{planes.contour(square, 0), planes.contour(square, 2)};
+    std::vector<Contour> contours{planes.contour(drawn_square, 0), planes.contour(drawn_square, 2)};
     Contour tilted = planes.contour(tiny, 2);
     tilted[1] += 0.2 * planes.n;
     contours.insert(first ? contours.begin() : contours.end(), tilted);
@@ -230,7 +231,8 @@ TEST(ContourStacks, AreOfTheLargestContoursPlane) {
 TEST(ContourStacks, PlanesAreMoreThanATwentiethOfAMillimeterApart) {
   const ObliquePlanes planes;
   const auto planes_at = [&](double height) {
-    return stack_of({planes.contour(square, 0), planes.contour(square, 4), planes.contour(square, 4 + height)})
+    return stack_of({planes.contour(drawn_square, 0), planes.contour(drawn_square, 4),
+                     planes.contour(drawn_square, 4 + height)})
         .planes.size();
   };
   EXPECT_EQ(planes_at(1e-4), 2U);
@@ -240,7 +242,7 @@ TEST(ContourStacks, PlanesAreMoreThanATwentiethOfAMillimeterApart) {
   for (const auto& [leaning, fits] : {std::pair{0.49, true}, {0.51, false}}) {
     Contour contour = planes.contour({{3, 3}, {9, 3}, {9, 9}}, 2);
     contour[1] += leaning * planes.n;
-    const std::vector<Contour> contours{planes.contour(square, 0), contour};
+    const std::vector<Contour> contours{planes.contour(drawn_square, 0), contour};
     if (fits) {
       EXPECT_NO_THROW(stack_of(contours));
     } else {

@@ -66,7 +66,7 @@ struct TestPart {
   std::vector<std::string> matrices;
 };
 
-DcmItem& new_item(DcmItem& item, const DcmTagKey& sequence) {
+DcmItem& new_registration_item(DcmItem& item, const DcmTagKey& sequence) {
   DcmItem* added = nullptr;
   succeed(item.findOrCreateSequenceItem(sequence, added, -2));
   return *added;
@@ -82,15 +82,15 @@ void write(const std::filesystem::path& file, const std::string& registered, con
     put(dataset, DCM_PatientID, patient);
     for (const TestPart& part : parts) {
       if (sop_class.ends_with("66.3")) {
-        DcmItem& item = new_item(dataset, DCM_DeformableRegistrationSequence);
+        DcmItem& item = new_registration_item(dataset, DCM_DeformableRegistrationSequence);
         succeed(item.putAndInsertString(DCM_SourceFrameOfReferenceUID, part.frame.c_str()));
         continue;
       }
-      DcmItem& item = new_item(dataset, DCM_RegistrationSequence);
+      DcmItem& item = new_registration_item(dataset, DCM_RegistrationSequence);
       succeed(item.putAndInsertString(DCM_FrameOfReferenceUID, part.frame.c_str()));
-      DcmItem& registration = new_item(item, DCM_MatrixRegistrationSequence);
+      DcmItem& registration = new_registration_item(item, DCM_MatrixRegistrationSequence);
       for (const std::string& matrix : part.matrices) {
-        DcmItem& one = new_item(registration, DCM_MatrixSequence);
+        DcmItem& one = new_registration_item(registration, DCM_MatrixSequence);
         succeed(one.putAndInsertString(DCM_FrameOfReferenceTransformationMatrix, matrix.c_str()));
         succeed(one.putAndInsertString(DCM_FrameOfReferenceTransformationMatrixType, "RIGID"));
       }
@@ -210,12 +210,12 @@ TEST(Registrations, MoveContoursAndWhatIsFeltOfThem) {
   image.edit = [](DcmDataset& dataset) {
     dataset.findAndDeleteElement(DCM_PixelData);
     put(dataset, DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.481.3");
-    DcmItem& roi = new_item(dataset, DCM_StructureSetROISequence);
+    DcmItem& roi = new_registration_item(dataset, DCM_StructureSetROISequence);
     roi.putAndInsertString(DCM_ROINumber, "1");
-    DcmItem& drawn = new_item(dataset, DCM_ROIContourSequence);
+    DcmItem& drawn = new_registration_item(dataset, DCM_ROIContourSequence);
     drawn.putAndInsertString(DCM_ReferencedROINumber, "1");
     for (const std::string z : {"0", "3", "6", "9", "12", "15", "18"}) {
-      DcmItem& item = new_item(drawn, DCM_ContourSequence);
+      DcmItem& item = new_registration_item(drawn, DCM_ContourSequence);
       item.putAndInsertString(DCM_ContourGeometricType, "CLOSED_PLANAR");
       const std::string points = "-10\\-10\\" + z + "\\10\\-10\\" + z + "\\10\\10\\" + z + "\\-10\\10\\" + z;
       item.putAndInsertString(DCM_ContourData, points.c_str());

@@ -48,12 +48,12 @@ struct Lattice {
 
 /// Pieces of line through a cell: from a side to a side, with what is above 0 on the left. By the bits of the corners
 /// that are above 0: lower left, lower right, upper right, upper left.
-struct Pieces {
+struct LinePieces {
   int count = 0;
   std::array<std::array<int, 2>, 2> sides{};
 };
 
-Pieces pieces_of(unsigned corners, bool is_joined) {
+LinePieces pieces_of(unsigned corners, bool is_joined) {
   switch (corners) {
     case 1:
       return {1, {{{0, 3}}}};
@@ -64,7 +64,7 @@ Pieces pieces_of(unsigned corners, bool is_joined) {
     case 4:
       return {1, {{{2, 1}}}};
     case 5:
-      return is_joined ? Pieces{2, {{{0, 1}, {2, 3}}}} : Pieces{2, {{{0, 3}, {2, 1}}}};
+      return is_joined ? LinePieces{2, {{{0, 1}, {2, 3}}}} : LinePieces{2, {{{0, 3}, {2, 1}}}};
     case 6:
       return {1, {{{2, 0}}}};
     case 7:
@@ -74,7 +74,7 @@ Pieces pieces_of(unsigned corners, bool is_joined) {
     case 9:
       return {1, {{{0, 2}}}};
     case 10:
-      return is_joined ? Pieces{2, {{{1, 2}, {3, 0}}}} : Pieces{2, {{{1, 0}, {3, 2}}}};
+      return is_joined ? LinePieces{2, {{{1, 2}, {3, 0}}}} : LinePieces{2, {{{1, 0}, {3, 2}}}};
     case 11:
       return {1, {{{1, 2}}}};
     case 12:
@@ -100,7 +100,7 @@ std::vector<ContourPolygon> zero_lines(std::span<const double> values, const glm
                                lattice.value(i, j + 1)};
       unsigned above = 0;
       for (unsigned n = 0; n < 4; ++n) above |= corners[n] > 0 ? 1U << n : 0U;
-      const Pieces pieces = pieces_of(above, corners[0] + corners[1] + corners[2] + corners[3] > 0);
+      const LinePieces pieces = pieces_of(above, corners[0] + corners[1] + corners[2] + corners[3] > 0);
       for (int n = 0; n < pieces.count; ++n) {
         const auto [from, to] = pieces.sides[static_cast<std::size_t>(n)];
         const CellEdge start = lattice.side(i, j, from);

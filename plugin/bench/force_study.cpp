@@ -22,7 +22,7 @@ std::vector<std::string> boundaries_of_scene(const modes::Scene& scene) {
   return names;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point begun) {
+double study_seconds_since(std::chrono::steady_clock::time_point begun) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
@@ -71,7 +71,7 @@ ForceRowResult run_row(const ForceGroup& group, const ForceRow& row, const Paths
   ForceRowResult result{.group = group.name, .name = row.name, .boundaries = {}, .truth_boundaries = {}, .errors = {}};
   const auto begun = std::chrono::steady_clock::now();
   const FeltScene felt = runner.prepared(row.make);
-  result.ready_s = seconds_since(begun);
+  result.ready_s = study_seconds_since(begun);
   result.boundaries = boundaries_of_scene(felt.scene);
   result.paths = paths.size();
   const std::size_t chunks = (paths.size() + chunk_paths - 1) / chunk_paths;

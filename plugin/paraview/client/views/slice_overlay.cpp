@@ -21,15 +21,15 @@ struct Place {
   int horizontal, vertical;
 };
 constexpr double beside_bar = 0.972, above_letter = 0.075;
-constexpr std::array<Place, 8> places{{{beside_bar, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
-                                       {0.015, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
-                                       {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
-                                       {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
-                                       {0.015, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP},
-                                       {0.015, above_letter, VTK_TEXT_LEFT, VTK_TEXT_BOTTOM},
-                                       {beside_bar, 0.985, VTK_TEXT_RIGHT, VTK_TEXT_TOP},
-                                       {beside_bar, 0.015, VTK_TEXT_RIGHT, VTK_TEXT_BOTTOM}}};
-constexpr std::size_t letters = 4, corner = 4, pointer = 5, identity = 6, place = 7;
+constexpr std::array<Place, 8> text_places{{{beside_bar, 0.5, VTK_TEXT_RIGHT, VTK_TEXT_CENTERED},
+                                            {0.015, 0.5, VTK_TEXT_LEFT, VTK_TEXT_CENTERED},
+                                            {0.5, 0.985, VTK_TEXT_CENTERED, VTK_TEXT_TOP},
+                                            {0.5, 0.015, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM},
+                                            {0.015, 0.985, VTK_TEXT_LEFT, VTK_TEXT_TOP},
+                                            {0.015, above_letter, VTK_TEXT_LEFT, VTK_TEXT_BOTTOM},
+                                            {beside_bar, 0.985, VTK_TEXT_RIGHT, VTK_TEXT_TOP},
+                                            {beside_bar, 0.015, VTK_TEXT_RIGHT, VTK_TEXT_BOTTOM}}};
+constexpr std::size_t letters = 4, corner_text = 4, pointer = 5, identity = 6, place = 7;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ SliceOverlay::SliceOverlay(vtkPVRenderView& view, std::function<void(int)> befor
   for (std::size_t n = 0; n < texts_.size(); ++n) {
     vtkTextActor& text = *texts_[n];
     text.GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-    text.SetPosition(places[n].x, places[n].y);
+    text.SetPosition(text_places[n].x, text_places[n].y);
     vtkTextProperty& style = *text.GetTextProperty();
     style.SetFontSize(n < letters ? 18 : 12);
     style.SetBold(n < letters);
@@ -61,8 +61,8 @@ SliceOverlay::SliceOverlay(vtkPVRenderView& view, std::function<void(int)> befor
     // Bright bone lies under it as often as dark air.
     style.SetBackgroundColor(0, 0, 0);
     style.SetBackgroundOpacity(0.6);
-    style.SetJustification(places[n].horizontal);
-    style.SetVerticalJustification(places[n].vertical);
+    style.SetJustification(text_places[n].horizontal);
+    style.SetVerticalJustification(text_places[n].vertical);
     renderer_->AddActor(texts_[n]);
   }
 }
@@ -72,7 +72,7 @@ SliceOverlay::~SliceOverlay() {
 }
 
 void SliceOverlay::set_corner(const QString& text) {
-  texts_[corner]->SetInput(text.toUtf8().constData());
+  texts_[corner_text]->SetInput(text.toUtf8().constData());
 }
 
 void SliceOverlay::set_identity(const QString& text) {

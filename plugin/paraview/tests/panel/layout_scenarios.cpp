@@ -49,14 +49,14 @@
 
 namespace {
 
-QMainWindow& window() {
+QMainWindow& whole_window() {
   return *qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
 }
 
 template <typename Widget>
 QStringList shown() {
   QStringList names;
-  for (const Widget* const one : window().findChildren<Widget*>(QString(), Qt::FindDirectChildrenOnly)) {
+  for (const Widget* const one : whole_window().findChildren<Widget*>(QString(), Qt::FindDirectChildrenOnly)) {
     if (one->isVisible()) names << one->objectName();
   }
   names.sort();
@@ -71,7 +71,7 @@ QRect on_screen(const QWidget& of) {
 bool is_all_in_sight(const char* name) {
   QWidget& of = find<QWidget>(name);
   const QRect place = on_screen(of);
-  if (!of.isVisible() || !on_screen(window()).contains(place)) return false;
+  if (!of.isVisible() || !on_screen(whole_window()).contains(place)) return false;
   for (QWidget* above = of.parentWidget(); above; above = above->parentWidget()) {
     auto* const scroll = qobject_cast<QScrollArea*>(above);
     if (scroll && !on_screen(*scroll->viewport()).contains(place)) return false;
@@ -104,7 +104,7 @@ void the_panel_fits_the_screen() {
   const QSize points = QGuiApplication::primaryScreen()->size();
   const QString size = QStringLiteral("%1x%2").arg(points.width()).arg(points.height());
   expect(size == qEnvironmentVariable("PALPATE_POINTS"), "the screen has these points: " + size.toStdString());
-  window().setGeometry(QRect({0, 0}, points));
+  whole_window().setGeometry(QRect({0, 0}, points));
   name_file("palpateOpenScene", five_tissues());
   wait_for(
       "five tissues are listed", [] { return widget("palpateOn4") && widget("palpateOn4")->isVisible(); }, 10);
@@ -152,7 +152,7 @@ void double_click(const char* name) {
 
 /// ParaView's *Properties* stand for the representation that is active, once they are seen.
 void expect_properties_of_the_active() {
-  const auto& panel = *window().findChild<pqPropertiesPanel*>();
+  const auto& panel = *whole_window().findChild<pqPropertiesPanel*>();
   wait_for(
       "Properties show what is active",
       [&] {
@@ -166,7 +166,7 @@ void expect_properties_of_the_active() {
 
 /// Hidden, they would keep a scan's views and representations in memory when it is closed.
 void expect_properties_hold_no_view() {
-  const auto& panel = *window().findChild<pqPropertiesPanel*>();
+  const auto& panel = *whole_window().findChild<pqPropertiesPanel*>();
   wait_for(
       "hidden Properties hold no view and no representation",
       [&] {
@@ -197,8 +197,8 @@ void advanced_shows_the_host() {
 /// On a small laptop's screen.
 void the_layout_is_clinical() {
   scan_is_shown();
-  window().setGeometry(QGuiApplication::primaryScreen()->geometry());
-  is_laid_out(window());
+  whole_window().setGeometry(QGuiApplication::primaryScreen()->geometry());
+  is_laid_out(whole_window());
   views_rest();
   expect_host(false, "at first");
   expect(shown<QToolBar>() == QStringList("palpateToolbar"), "one toolbar is there");
@@ -213,7 +213,7 @@ void the_layout_is_clinical() {
   }
   save_screen("layout");
   const auto key_of = [](const char* name) {
-    const auto* const of = window().findChild<QAction*>(QLatin1String(name));
+    const auto* const of = whole_window().findChild<QAction*>(QLatin1String(name));
     expect(of != nullptr, std::string("there is an action ") + name);
     return of->shortcut();
   };
@@ -313,7 +313,7 @@ void ones_way_is_found() {
   save_screen("guide");
   widget("palpateGuide")->close();
 
-  QMenu& recent = *window().findChild<QMenu*>("palpateRecent");
+  QMenu& recent = *whole_window().findChild<QMenu*>("palpateRecent");
   emit recent.aboutToShow();
   const QString folder = QFileInfo(qEnvironmentVariable("PALPATE_OPEN")).absoluteFilePath();
   expect(recent.actions().size() == 1 && recent.actions().first()->text() == folder, "the folder is remembered");
