@@ -57,7 +57,7 @@ stage_shared() {
 }
 # What computes for long and reads no bytes is left to the release build.
 numeric='modes\.(Suggest|Regions|FeltStrength|SiteMap)|device\.(EachDevice|RandomFaults)|plugin\.(LiveSession|StructureReach|RegisteredReplay)'
-numeric+='|io\.(CorrectedDistance|Edit.*Laws|ScanEdge|DoubtfulPlaces|OutlineParts|CompareOutlines|SmoothestLaws)|messages\.Messages'
+numeric+='|io\.(CorrectedDistance|Edit.*Laws|ScanEdge|DoubtfulPlaces|OutlineParts|CompareOutlines|SmoothestLaws)'
 stage_asan() {
   configure_and_build asan && LSAN_OPTIONS="suppressions=$PWD/.ci/leaks:print_suppressions=0" run_ctest asan -E "^(shared|arrows)|^($numeric)"
 }
