@@ -250,6 +250,18 @@ TEST(ChainLaws, TheExactSolverKeepsToTheCapThatIsSet) {
   EXPECT_GE(met, 10) << "else no cap was met";
 }
 
+TEST(ChainLaws, WithoutACapEachSolverHasItsOwn) {
+  int longer = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Problem problem = make_problem(Family::spread, seed);
+    Chain chain;
+    const ChainAnswer answer = answer_of(chain, problem.balance());
+    EXPECT_EQ(answer.solution.outcome, Outcome::solved) << seed;
+    longer += answer.solution.iterations > 1 ? 1 : 0;
+  }
+  EXPECT_GT(longer, 5);
+}
+
 /// What is told is what the heap gives, wherever the heap tells.
 TEST(ChainLaws, TheMemoryOfTheExactSolverIsWhatItTakes) {
   const auto taken = [] { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); };

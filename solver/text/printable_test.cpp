@@ -42,6 +42,19 @@ bool is_utf8(std::string text) {
 }
 
 // Whatever bytes there are, what is shown is UTF-8; what is UTF-8 without control characters is shown as it is.
+/// A byte that is no UTF-8 takes nothing of what follows with it.
+TEST(Printable, ShowsWhatFollowsAByteThatIsNone) {
+  for (const std::string rest : {"a", "ab", "\xC3\xA9", "\x1b[0m", "\xFF", ""}) {
+    EXPECT_EQ(printable("\xFE" + rest), "\\xfe" + printable(rest));
+    EXPECT_EQ(printable("\xC3"
+                        "a" +
+                        rest),
+              "\\xc3"
+              "a" +
+                  printable(rest));
+  }
+}
+
 TEST(Printable, IsUtf8WhateverTheBytes) {
   constexpr unsigned char bytes[] = {'a',  0x80, 0x8F, 0x90, 0x9F, 0xA0, 0xBF, 0xC1,
                                      0xC2, 0xDF, 0xE0, 0xED, 0xEF, 0xF0, 0xF4, 0xF5};
