@@ -94,7 +94,7 @@ inline constexpr MessageRow paraview[] = {
     {"what is shown would not be what is felt, so there is no force",
      "",
      {{"paraview-session-ended", "ParaView's session ended, and the scan went with it. Open a scan, then press Feel"},
-      {"scan-left-the-pipeline", "the scan is no longer in the pipeline. Open a scan, then press Feel"},
+      {"scan-left-the-pipeline", "the scan was deleted. Open a scan, then press Feel"},
       {"scan-is-still-being-read", "the scan is still being read. Wait until it is shown, then press Feel"},
       {"no-view-shows-the-scan",
        "no view shows the scan. Show it again (the eye in the Pipeline Browser), then press Feel"},

@@ -52,6 +52,8 @@ void PanelParts::build_toolbar() {
   QObject::connect(toolbar, &ClinicalToolbar::release_wanted, &dock, [this] { session.release(); });
   QObject::connect(toolbar, &ClinicalToolbar::advanced_wanted, layout, &HostLayout::set_advanced);
   QObject::connect(layout, &HostLayout::advanced_changed, toolbar, &ClinicalToolbar::show_advanced);
+  QObject::connect(layout, &HostLayout::advanced_changed, &dock,
+                   [this](bool advanced) { readers.set_advanced(advanced); });
   QObject::connect(column->stylus, &StylusSection::connection_shown, toolbar, &ClinicalToolbar::show_connection);
   readers.views().set_enlarged_changed([this](bool enlarged) { toolbar->show_enlarged(enlarged); });
 }

@@ -323,7 +323,7 @@ QString ScanPipeline::notes(const SeriesRef& of, const io::Volume* volume) const
   for (const std::string& warning : volume->warnings) notes << QString::fromStdString(warning);
   const DisplayGrid grid = display_grid(shown.geometry);
   if (grid.resampled) notes << words(say("display-resampled-touch-is-not"));
-  if (!is_straight(grid)) notes << words(say("oblique-or-tilted"));
+  if (!is_straight(grid) && advanced_) notes << words(say("oblique-or-tilted"));
   return notes.join(QLatin1Char('\n'));
 }
 

@@ -39,6 +39,8 @@ class ScanPipeline : public ScanWorld {
   void restore(pqPipelineSource& reader, Brought brought);
   /// The names, in the pipeline, of scans that are visible in a view beside the one that is felt.
   QStringList others_shown() const;
+  /// Whether ParaView's own panels are in sight: what is to be known of its filters is told of the next scan.
+  void set_advanced(bool advanced) { advanced_ = advanced; }
 
   bool is_remote() const override;
   void find(const std::string& path, Progress progress, Found found) override;
@@ -71,6 +73,7 @@ class ScanPipeline : public ScanWorld {
   ScanModel* model_ = nullptr;
   QPointer<pqPipelineSource> source_;
   std::unique_ptr<ServerSeries> on_server_;  // what the active server found, in its store
+  bool advanced_ = false;                    // ParaView's filters are in sight
   bool making_reader_ = false;
   QMetaObject::Connection time_;
   ClinicalViews views_;

@@ -220,10 +220,16 @@ void what_is_to_be_known_is_said() {
   });
   drop_folder(qEnvironmentVariable("PALPATE_DROP"));
   scan_is_shown();
-  for (const char* const sentence : {"Display resampled, touch is not.",
-                                     "Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour."}) {
-    expect(label("palpateMessage").split('\n').contains(sentence), std::string("it is said: ") + sentence);
-  }
+  const auto is_said = [](const char* sentence) { return label("palpateMessage").split('\n').contains(sentence); };
+  const char* const resampled = "Display resampled, touch is not.";
+  const char* const of_filters = "Oblique or tilted: use Palpate's Tissue Surface, not ParaView's Contour.";
+  expect(is_said(resampled), "it is said how it is drawn");
+  expect(!is_said(of_filters), "what is to be known of ParaView's filters is not told while they are hidden");
+  find<QToolButton>("palpateAdvancedButton").click();
+  const unsigned before = reader_in_pipeline();
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  another_scan_is_shown(before);
+  expect(is_said(resampled) && is_said(of_filters), "under Advanced both are");
   const QString nowhere = "/proc/scene.json";  // not even root may make one there
   name_file("palpateSaveScene", nowhere);
   const QRegularExpression refusal("^/proc/scene\\.json cannot be written: .+$");

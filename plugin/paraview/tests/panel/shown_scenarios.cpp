@@ -100,7 +100,7 @@ void no_scan_shown_no_force() {
   // The reader is deleted in mid-contact.
   press();
   builder.destroy(&first);
-  expect_stopped("the scan is no longer in the pipeline. Open a scan, then press Feel");
+  expect_stopped("the scan was deleted. Open a scan, then press Feel");
   expect(find<QPushButton>("palpateConnect").text() == "Disconnect", "the stylus is still connected");
   save_screen("no-scan-deleted");
   let_go();
@@ -115,7 +115,7 @@ void a_deleted_scan_comes_back() {
   const QString felt = label("palpateFelt");
   expect(felt.startsWith("Felt: CT "), "the panel names what is felt");
   pqDeleteReaction::deleteSources({&reader()});
-  expect_stopped("the scan is no longer in the pipeline. Open a scan, then press Feel");
+  expect_stopped("the scan was deleted. Open a scan, then press Feel");
   wait_for(
       "nothing is said to be felt", [] { return label("palpateFelt") == "No scan is open."; }, 20);
   let_go();
@@ -257,9 +257,8 @@ void a_scan_is_overtaken() {
   is_laid_out(*series.viewport());
   (void)half_shown(0);
   pqApplicationCore::instance()->getObjectBuilder()->destroy(&reader());
-  wait_for("it is said that it is gone", [] {
-    return label("palpateMessage") == "the scan is no longer in the pipeline. Open a scan, then press Feel";
-  });
+  wait_for("it is said that it is gone",
+           [] { return label("palpateMessage") == "the scan was deleted. Open a scan, then press Feel"; });
   expect(views_open() == 0, "none of its views is left");
   expect(!find<QWidget>("palpateCover").isVisible(), "nothing waits for them");
   choose_series(1);
@@ -277,7 +276,7 @@ std::size_t scans_in(const QString& state) {
 void what_was_deleted_is_not_in_the_state() {
   feel();
   pqDeleteReaction::deleteSources({&reader()});
-  expect_stopped("the scan is no longer in the pipeline. Open a scan, then press Feel");
+  expect_stopped("the scan was deleted. Open a scan, then press Feel");
   let_go();
   pqApplicationCore::instance()->getUndoStack()->undo();
   scan_is_shown();
