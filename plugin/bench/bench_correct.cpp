@@ -42,7 +42,8 @@ void add_bench_correct(CLI::App& bench) {
           ->check(CLI::ExistingPath);
   command->get_option("SERIES")->required(false)->needs(structures);
   structures->needs("SERIES");
-  command->add_option("--organs", arguments->organs, "their names; else the largest three")->needs(structures);
+  command->add_option("--organs", arguments->organs, "names of these organs (default: the largest three)")
+      ->needs(structures);
   command->add_option("-o,--output", arguments->output,
                       "also write CSV files and a picture to this new or empty folder");
   command->callback([arguments] {

@@ -122,8 +122,9 @@ void add_bench_forces(CLI::App& bench) {
   CLI::Option* const structures =
       command->add_option("--structures", arguments->structures, "reference labels: SEG, RTSTRUCT or label map")
           ->check(CLI::ExistingPath);
-  CLI::Option* const trajectory = command->add_option(
-      "--trajectories", arguments->trajectory, "a measured stroke over what SERIES scanned: text, one sample a line");
+  CLI::Option* const trajectory =
+      command->add_option("--trajectories", arguments->trajectory,
+                          "a stroke measured on the object that SERIES shows: text, one sample a line");
   command->get_option("SERIES")->required(false);
   structures->needs("SERIES")->excludes(trajectory);
   command
@@ -141,7 +142,9 @@ void add_bench_forces(CLI::App& bench) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "seed of the paths and the noise")->capture_default_str();
-  command->add_option("--threads", arguments->threads, "0: all cores; the figures are the same on any number")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "how many threads; 0: one for each core. The figures do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_option("--only", arguments->only, "only groups whose name contains this");

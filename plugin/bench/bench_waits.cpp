@@ -281,8 +281,8 @@ void add_bench_waits(CLI::App& bench) {
       ->check(CLI::Range(64, 1024));
   command->add_flag(
       "--shapes", arguments->shapes,
-      "a CT of 512 x 512 as scanners send it (padding, tilt, floats and so on), each beside the plain one");
-  command->add_option("--slices", arguments->slices, "of the CT of --shapes")
+      "time a CT of 512 x 512 in each form that scanners send (padding, tilt, floats and so on) and in the plain form");
+  command->add_option("--slices", arguments->slices, "with --shapes: how many slices the CT has")
       ->capture_default_str()
       ->check(CLI::Range(16, 1000));
   command->add_option("-o,--output", arguments->output, "also write CSV and a picture to this new or empty folder");

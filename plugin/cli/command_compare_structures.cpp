@@ -95,11 +95,12 @@ void add_compare_structures(CLI::App& structures) {
       structures.add_subcommand("compare", "Measures how far apart two outlines are; their grids may differ");
   command->footer(
       "A, B and C: a SEG, RTSTRUCT or label map, with :NUMBER or :NAME where it holds several structures.\n"
-      "The surfaces that are felt are compared: smooth ones that keep each voxel's center on its own side.\n"
+      "The surfaces that are felt are compared. They are smooth. The center of each voxel\n"
+      "of a structure lies inside its surface, and the centers of all other voxels lie outside.\n"
       "volume_mm3     of A and of B, as `palpate structures` lists it\n"
       "dice           twice the volume that both share, over the sum of both\n"
-      "mean_mm        of the distances from each point of A's surface to the nearest of B's, and from B's to A's:\n"
-      "               both directions together, weighted by area, sampled every 0.2 to 2 mm as the size allows\n"
+      "mean_mm        mean distance from the points of A's surface to the nearest point of B's, and from B's to A's,\n"
+      "               weighted by area; the points are 0.2 to 2 mm apart, depending on the size\n"
       "p95_mm         95th percentile of these distances, weighted by area\n"
       "largest_mm     the largest of them (Hausdorff), found at largest_at_mm\n"
       "margin_mm      with --to: the smallest distance between the surfaces of B and C; below 0: how deep they "

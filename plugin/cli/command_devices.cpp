@@ -141,7 +141,8 @@ void add_devices(CLI::App& program) {
   command
       ->add_option("--firmware", check->stylus.firmware, "Falcon: Novint's firmware file, if the device has none yet")
       ->needs(which);
-  command->add_option("--device-settings", check->stylus.settings, "Its present settings: a JSON file")->needs(which);
+  command->add_option("--device-settings", check->stylus.settings, "The settings that it has now: a JSON file")
+      ->needs(which);
   command
       ->add_option("-o,--output", check->output,
                    "The file for its settings (default: KIND-settings.json in this folder)")

@@ -95,10 +95,10 @@ void add_suspects(CLI::App& program) {
       program.add_subcommand("suspects", "Lists the places at which a structure's outline is doubtful on a scan");
   command->footer(
       "Every 2 mm the scan's own edge is searched along the outline's normal, up to 6 mm away.\n"
-      "kind           edge: the scan's edge is farther from the outline than twice its uncertainty and half a voxel\n"
-      "               no_edge: over more than 1 cm2 the scan has no edge and the tissue is alike on both sides, "
-      "although\n"
-      "               a third of the outline has an edge\n"
+      "kind           edge: the scan's edge is farther from the outline than half a voxel and than twice its "
+      "uncertainty\n"
+      "               no_edge: the scan has no edge over more than 1 cm2, and the tissue is alike on both sides;\n"
+      "               looked for only if a third of the outline has an edge\n"
       "               island, hole: smaller than a tenth of the largest part\n"
       "position_mm    a point on the outline, in patient space (LPS)\n"
       "normal         the outline's normal at that point, outwards\n"
