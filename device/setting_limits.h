@@ -10,12 +10,12 @@
 
 namespace palpate::device {
 
-/// Of a kind. Each lies within the ceiling of the whole chain.
+/// The limits of a kind of device. None is above the ceiling of the whole chain.
 struct SettingLimits {
   double force_n = ceiling::force_n;
   double stiffness_n_per_m = ceiling::stiffness_n_per_m;
-  bool tells_force = false;      ///< a largest force of 0 means what the device says of itself
-  bool tells_stiffness = false;  ///< a stiffness limit of 0, likewise
+  bool tells_force = false;      ///< a largest force of 0: the device's own figure is used
+  bool tells_stiffness = false;  ///< the same for a stiffness limit of 0
 };
 
 /// What is wrong with the limits of these settings; empty: nothing.

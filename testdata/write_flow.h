@@ -12,10 +12,9 @@ namespace palpate::testdata {
 struct FlowStudy {
   FlowPastSphere flow;
   Grid grid;
-  int times = 5;           ///< in one cycle
-  double cycle_ms = 1000;  ///< of the heart
-  double pulsation =
-      0.5;  ///< the free stream grows and falls by this part of itself: 1 + pulsation sin(2 pi t / cycle)
+  int times = 5;             ///< in one cycle
+  double cycle_ms = 1000;    ///< of the heart
+  double pulsation = 0.5;    ///< the free stream times 1 + pulsation sin(2 pi t / cycle)
   double venc_cm_per_s = 0;  ///< 0: a fifth above the largest speed, so that nothing wraps around
 };
 
@@ -24,10 +23,10 @@ Vec3 free_stream_at(const FlowStudy& study, int time);
 /// The fastest speed anywhere at any time.
 double fastest_cm_per_s(const FlowStudy& study);
 
-/// Four series into `folder`, which must not exist or be empty: magnitude, and the speeds from right to left, from
-/// front to back and from feet to head (12 bit, as Siemens stores them: rescaled to -4096 ... 4094). One folder each,
-/// in it one a time. The sphere and what lies outside the tunnel is padding. Throws as write_series() does, and
-/// std::invalid_argument for a study without times or with a venc below its speeds.
+/// Writes four series into `folder`, which must be new or empty: magnitude, and the speeds from right to left, from
+/// front to back and from feet to head (12 bit, as Siemens stores them: rescaled to -4096 ... 4094). Each series has a
+/// folder with a subfolder for each time. The sphere and all voxels outside the tunnel are padding. Throws as
+/// write_series() does, and std::invalid_argument for a study without times or with a venc below its speeds.
 void write_flow_study(const FlowStudy& study, const std::filesystem::path& folder);
 
 }  // namespace palpate::testdata

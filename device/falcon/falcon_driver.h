@@ -13,7 +13,7 @@
 
 namespace palpate::device {
 
-/// FTDI's vendor request for the chip's buffers, and its value that empties that of what was received.
+/// The vendor request of FTDI that resets a buffer of the chip, and the value that empties the receive buffer.
 constexpr std::uint8_t ftdi_reset = 0;
 constexpr std::uint16_t ftdi_purge_received = 1;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The functions of libdrd.so that are used, with its C types. Default arguments are C++'s alone: the device's number
-/// is always given.
+/// The functions of libdrd.so that the driver uses, with its C types. C has no default arguments, so each call gives
+/// the device's number.
 
 #include <cstddef>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace palpate::device {
 
-/// DHD_MAX_STATUS has grown with the library (14, 15, 17, 20): it writes as many as it knows.
+/// More than DHD_MAX_STATUS, which grew from version to version (14, 15, 17, 20). The library writes that many entries.
 constexpr std::size_t drd_status_size = 64;
 
 struct DrdLibrary {
-  /// Throws std::runtime_error: SharedLibrary.
+  /// Throws std::runtime_error as SharedLibrary does, and if the library is not of version 3.
   DrdLibrary();
 
   SharedLibrary library;
@@ -44,7 +44,7 @@ struct DrdLibrary {
   int (*set_force_and_torque_and_gripper_force)(double fx, double fy, double fz, double tx, double ty, double tz,
                                                 double gripper, char id) = nullptr;
 
-  /// Empty where the device tells none: 65535 is the library's word for that.
+  /// Empty where the device has no serial number: the library then gives 65535.
   std::string serial_of(char id) const;
   /// Lets the firmware take away a force that is not renewed for 30 ms. False where the device has no such watchdog.
   bool set_own_watchdog(char id) const noexcept;

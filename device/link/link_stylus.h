@@ -25,11 +25,11 @@ namespace palpate::device {
 struct LinkStylusOptions {
   bool threaded = true;                          ///< false: the owner of the stylus calls service()
   double force_age = ceiling::link_force_age_s;  ///< s: a force that write_force() does not renew becomes zero
-  int priority = 60;  ///< SCHED_FIFO of the thread, above the servo's; where not allowed it goes without
+  int priority = 60;  ///< of SCHED_FIFO, above the servo's; not used if the system forbids it
   GuardianSettings guardian;
-  /// Starts it: the process, or a test's.
+  /// Starts the guardian: the process, or a fake in a test.
   std::function<std::unique_ptr<Guardian>(const GuardianSettings&)> start_guardian = device::start_guardian;
-  double guardian_patience = Guardian::patience_s;  ///< s that it has to prove itself
+  double guardian_patience = Guardian::patience_s;  ///< s: within this time the guardian has to prove itself
   AxisSigns signs;
   bool stays_awake = false;                   ///< the machine is asked not to sleep while the stylus is open
   double (*asleep)() noexcept = time_asleep;  ///< s that the machine has slept: a jump is a fault
@@ -44,7 +44,7 @@ class LinkStylus final : public Stylus {
              const LinkStylusOptions& options = {});
   ~LinkStylus() override;
 
-  /// Of the kind of device; once open, of this one.
+  /// Of the kind of device. After open(), of the device that was opened.
   Specification specification() const override { return specification_; }
   void open() override;
   void close() noexcept override;

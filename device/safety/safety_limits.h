@@ -1,23 +1,24 @@
 #pragma once
 
-/// The ceilings of the whole chain, and the limits of the safety filter with their defaults: in one place, because they
-/// depend on each other. plugin/docs/safety.md has them as a table.
+/// The ceilings of the whole chain, and the limits of the safety filter with their defaults. They are in one file
+/// because they depend on each other. plugin/docs/safety.md has them as a table.
 
 namespace palpate::device {
 
-/// What no scene, state, setting or option can pass. A scene or state that asks for more is drawn down, and this is
-/// said (plugin/session/felt_limits.h). A setting or option that asks for more is refused by name. Where a device can
-/// do less, its own limit holds (Specification).
+/// No scene, state, setting or option can pass these. If a scene or state asks for more, the ceiling is used instead
+/// and a message says so (plugin/session/felt_limits.h). A setting or option that asks for more is refused by name. If
+/// a device can do less, its own limit holds (Specification).
 namespace ceiling {
 
-/// N: what an omega gives, the strongest stylus whose maker's figure we have (Force Dimension, 12 N). A person controls
-/// 2 to 6 N with one finger for minutes (Jones, "Perception and control of finger forces", 1998).
+/// N: the force of an omega (Force Dimension, 12 N). It is the strongest stylus whose force we know from its maker. A
+/// person controls 2 to 6 N with one finger for minutes (Jones, "Perception and control of finger forces", 1998).
 inline constexpr double force_n = 12;
-/// N/s: at `speed_m_per_s` a wall of 1000 N/m, which is stiffer than any device's default but an omega's, is still
-/// rendered without lag. OpenHaptics calls a faster change a force impulse and refuses it (HD_FORCE_IMPULSE).
+/// N/s: at `speed_m_per_s` a wall of 1000 N/m is still rendered without lag. Only an omega has a stiffer default.
+/// OpenHaptics calls a faster change a force impulse and refuses it (HD_FORCE_IMPULSE).
 inline constexpr double slew_n_per_s = 1000;
-inline constexpr double slew_time_s = 0.002;  ///< a late tick or exchange counts as this long: it makes no step
-/// s, the shortest: longer than a person needs to let go (a simple reaction to touch takes about 0.16 s).
+/// s, the longest that a tick or exchange counts: so a late one makes no step in the force.
+inline constexpr double slew_time_s = 0.002;
+/// s, the shortest ramp. A person can let go in less time: a simple reaction to touch takes about 0.16 s.
 inline constexpr double ramp_s = 0.25;
 inline constexpr double resume_ramp_s = ramp_s;  ///< s: after a zero that the link puts in
 inline constexpr double fall_s = 0.05;           ///< s: from full force to zero after a fault or when disarmed

@@ -21,7 +21,7 @@ class StayAwake {
   int pipe_;
 };
 
-/// `device`: whom the system names as the reason. Null where systemd-inhibit is not there.
+/// `device`: the name that the system shows as the reason. Null if systemd-inhibit is not installed.
 std::unique_ptr<StayAwake> stay_awake(const std::string& device) noexcept;
 
 }  // namespace palpate::device

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a transfer function does, below it: the force along a stroke, now and as it was before the curve was dragged.
+/// The chart below a transfer function: the force along a stroke, now and before the curve was dragged.
 
 #include <QTimer>
 #include <QWidget>
@@ -25,14 +25,16 @@ class CurveProfile : public QWidget {
   CurveProfile(SessionController& session, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
   ~CurveProfile() override;
 
-  /// The stroke that the user has chosen. While it is not whole, the line across the place last met is taken.
+  /// The stroke that the user has chosen. While it lacks an end, the line across the last place of point_at() or
+  /// touch_at() is used.
   void choose(const WantedStroke& stroke);
-  /// The pointer is there in a slice; `gradient` of the scan's value. Taken once the pointer has rested: it passes over
-  /// much on its way to the curve.
+  /// The pointer is at this place in a slice; `gradient` of the scan's value. The place is used once the pointer has
+  /// rested, because the pointer passes over many places on its way to the curve.
   void point_at(const glm::dvec3& place, const glm::dvec3& gradient);
-  /// The stylus is held there; `inward`: from the proxy to the probe. Taken once it has rested, too.
+  /// A boundary holds the stylus at this place; `inward`: from the proxy to the probe. It is used once the stylus has
+  /// rested, too.
   void touch_at(const glm::dvec3& place, const glm::dvec3& inward);
-  /// Another scan: no place of the last one counts.
+  /// For another scan: forgets the places of the last one.
   void forget();
   /// The curve has come to rest: the next drag is compared with what is felt now.
   void rest();
