@@ -25,8 +25,8 @@ class CurveProfile : public QWidget {
   CurveProfile(SessionController& session, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
   ~CurveProfile() override;
 
-  /// The stroke that the user has chosen. While it lacks an end, the line across the last place of point_at() or
-  /// touch_at() is used.
+  /// The stroke that the user has chosen. While it is not two different points, the line across the last place of
+  /// point_at() or touch_at() is used.
   void choose(const WantedStroke& stroke);
   /// The pointer is at this place in a slice; `gradient` of the scan's value. The place is used once the pointer has
   /// rested, because the pointer passes over many places on its way to the curve.
