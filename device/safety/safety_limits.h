@@ -13,7 +13,8 @@ namespace ceiling {
 /// N: the force of an omega (Force Dimension, 12 N). It is the strongest stylus whose force we know from its maker. A
 /// person controls 2 to 6 N with one finger for minutes (Jones, "Perception and control of finger forces", 1998).
 inline constexpr double force_n = 12;
-/// N/s: at `speed_m_per_s` a wall of 1000 N/m is still rendered without lag. Only an omega has a stiffer default.
+/// N/s: at `speed_m_per_s` a wall of 1000 N/m is still rendered without lag. Only Force Dimension's
+/// devices have a stiffer default.
 /// OpenHaptics calls a faster change a force impulse and refuses it (HD_FORCE_IMPULSE).
 inline constexpr double slew_n_per_s = 1000;
 /// s, the longest that a tick or exchange counts: so a late one makes no step in the force.
