@@ -60,7 +60,7 @@ inline constexpr MessageRow archives[] = {
       {"tls-certificate-and-tls-key-go-together", "--tls-certificate and --tls-key go together"},
       {"c-move-needs-a-certificate",
        "C-MOVE with TLS needs --tls-certificate and --tls-key, since the archive then connects to us; or set --get"}}},
-    {"",
+    {"a date or UID that no archive would find",
      "",
      {{"date-has-to-be-yyyymmdd", "--date has to be YYYYMMDD, YYYYMMDD-YYYYMMDD, YYYYMMDD- or -YYYYMMDD"},
       {"no-uid", "{} is no UID: `palpate find` lists those of studies and series"},

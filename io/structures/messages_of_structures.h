@@ -142,7 +142,7 @@ inline constexpr MessageRow structures[] = {
       {"contours-are-dicom-alone", "contours (RTSTRUCT) are written as DICOM alone, and {} is none: name a file .dcm"},
       {"slices-lie-unevenly-for-it",
        "{} can hold slices at equal distances alone, and the scan's are not: write .dcm"}}},
-    {"",
+    {"a segmentation that is not of a scan's voxels",
      "",
      {{"outlines-a-microscope-slide", "it outlines a microscope's slide, not a scan: it cannot be felt"},
       {"holds-surfaces", "it holds surfaces (Surface Segmentation), which are not read: export it as SEG"}}},

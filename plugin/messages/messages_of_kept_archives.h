@@ -10,7 +10,7 @@ inline constexpr MessageRow kept_archives[] = {
     {"the archive could not send all; what came is kept",
      "fetch it again",
      {{"not-all-images-came", "not all images came: see the warnings"}}},
-    {"",
+    {"what an archive is to be reached with is incomplete",
      "",
      {{"no-archive-is-entered-yet",
        "no archive is entered yet: enter one with `palpate archive add NAME --host --port --called --calling`"},
