@@ -20,10 +20,16 @@ void expect_words(const char* button, const char* words) {
          std::string(button) + " says \"" + words + "\", not \"" + there.toStdString() + '"');
 }
 
+/// A toolbar lays out anew, after an event, what another button's words have moved.
 void expect_in_sight(const char* name) {
   const QWidget& of = find<QWidget>(name);
-  const QRect place(of.mapTo(pqCoreUtilities::mainWidget(), QPoint(0, 0)), of.size());
-  expect(of.isVisible() && pqCoreUtilities::mainWidget()->rect().contains(place), std::string(name) + " is in sight");
+  wait_for(
+      std::string(name) + " is in sight",
+      [&of] {
+        const QRect place(of.mapTo(pqCoreUtilities::mainWidget(), QPoint(0, 0)), of.size());
+        return of.isVisible() && pqCoreUtilities::mainWidget()->rect().contains(place);
+      },
+      5);
 }
 
 void the_panel_speaks_german() {

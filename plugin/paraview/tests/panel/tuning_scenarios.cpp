@@ -246,13 +246,15 @@ void words_for_developers_stand_under_technical() {
   auto& technical = find<QToolButton>("palpateTechnical");
   click("palpateModesSectionFold");
   connect_stylus();
-  QStringList seen;
-  const auto expect_texts = [&](bool there) {
-    seen.clear();
+  const auto shown = [] {
+    QStringList seen;
     for (const QLabel* const text : find<QWidget>("PalpatePanel").findChildren<QLabel*>()) {
       if (text->isVisible()) seen << text->text();
     }
-    const QString all = seen.join(QLatin1Char('\n'));
+    return seen.join(QLatin1Char('\n'));
+  };
+  const auto expect_texts = [&](bool there) {
+    const QString all = shown();
     for (const char* const word : {"gradient bricks|brick", "Hessian", "solver", "tick", "own limits: "}) {
       const bool is = all.contains(QRegularExpression(QStringLiteral("\\b(%1)").arg(QLatin1String(word))));
       if (!there) expect(!is, std::string("nothing tells of ") + word + ": " + all.toStdString());
@@ -265,7 +267,9 @@ void words_for_developers_stand_under_technical() {
   technical.click();
   wait_for(
       "what the stylus limits itself is told", [] { return find<QLabel>("palpateOwnLimits").isVisible(); }, 20);
-  handle_events(50);
+  wait_for(
+      "so is what a tick takes, and by which solver",
+      [&] { return shown().contains("tick") && shown().contains("solver"); }, 10);
   expect_texts(true);
   expect(find<QLabel>("palpatePlan").isVisible(), "what is left out is told, too");
   save_screen("technical");
