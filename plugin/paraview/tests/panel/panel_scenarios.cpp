@@ -296,11 +296,18 @@ void main_thread() {
 bool is_painted(const char* name) {
   if (!find<QPushButton>("palpateConnect").isEnabled()) return false;
   if (render_view(name).getRenderViewProxy()->GetRenderWindow()->GetNeverRendered() != 0) return false;
+  // Something in the middle half: a volume may be clear in its middle, as lungs are.
   const QWidget& on = view(name);
-  const QPoint middle = on.mapToGlobal(on.rect().center()) - QPoint(20, 20);
-  const QImage seen =
-      QGuiApplication::primaryScreen()->grabWindow(0, middle.x(), middle.y(), 40, 40).toImage().scaled(1, 1);
-  return qGray(seen.pixel(0, 0)) > 16;
+  const QSize half = on.size() / 2;
+  const QPoint corner = on.mapToGlobal(on.rect().center()) - QPoint(half.width() / 2, half.height() / 2);
+  const QImage seen = QGuiApplication::primaryScreen()
+                          ->grabWindow(0, corner.x(), corner.y(), half.width(), half.height())
+                          .toImage()
+                          .scaled(8, 8, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+  for (int n = 0; n < 64; ++n) {
+    if (qGray(seen.pixel(n % 8, n / 8)) > 16) return true;
+  }
+  return false;
 }
 
 /// Those of 100 ms or more, each with when it began.
