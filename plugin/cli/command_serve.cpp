@@ -8,6 +8,7 @@
 #include "plugin/cli/commands.h"
 #include "plugin/cli/ready_session.h"
 #include "plugin/cli/session_option.h"
+#include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/openigtlink/serve.h"

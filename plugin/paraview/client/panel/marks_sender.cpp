@@ -20,8 +20,8 @@ void MarksSender::send(const io::Archive& archive, const io::Series& series,
     const io::FreshFolder folder = io::temporary_folder();
     const auto files = write_results(series, volume, marks, folder.path());
     const int all = static_cast<int>(files.size());
-    const io::Sent sent = io::send(archive, files, [&](std::size_t done) {
-      tell_progress(job, static_cast<int>(done), all, tr("%1 of %2 files").arg(done).arg(all));
+    const io::Sent sent = io::send(archive, files, [&](std::size_t sent_now) {
+      tell_progress(job, static_cast<int>(sent_now), all, tr("%1 of %2 files").arg(sent_now).arg(all));
       return job.keep_going();
     });
     return said_of(sent, archive.name);

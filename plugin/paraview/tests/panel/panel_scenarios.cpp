@@ -2,6 +2,7 @@
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
 #include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
 #include <vtkSMRenderViewProxy.h>
 
 #include <QApplication>
