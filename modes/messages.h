@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of scenes.
+/// The messages about scenes.
 
 #include "solver/text/message.h"
 
@@ -84,7 +84,7 @@ inline constexpr MessageRow scenes[] = {
 
 namespace palpate::modes {
 
-/// The message of this id, with these values in its places.
+/// The message of this id, with these values in place of its {}.
 template <typename... Values>
 Text say(std::type_identity_t<ChosenMessage<sizeof...(Values), messages::scenes>> message, const Values&... values) {
   return message.filled(values...);

@@ -23,13 +23,13 @@ struct Balance {
   std::span<const Primitive> primitives;
 };
 
-/// f = -k (probe - proxy), equation (1): what the device is fed, N.
+/// f = -k (probe - proxy), equation (1): the force for the device, N.
 Vec3 coupling_force(const Balance& balance, const Vec3& proxy);
 
 /// epsilon = -f(proxy) + sum F_i(proxy), equation (7): N. A constraint that holds the proxy is not counted in it.
 Vec3 residual(const Balance& balance, const Vec3& proxy);
 
-/// What can be wrong with the numbers of a balance.
+/// The faults that the numbers of a balance can have.
 enum class Flaw : std::uint8_t {
   not_finite,      ///< NaN, or infinite where only a constraint's strength may be
   negative,        ///< a strength below zero
@@ -52,10 +52,11 @@ struct Rejection {
   std::size_t primitive = whole_balance;  ///< index into Balance::primitives, or whole_balance
   Field field = Field::stiffness;
   Flaw flaw = Flaw::not_finite;
-  double value = 0;  ///< the number at fault; of incompatible constraints how far the primitive stays away, m
+  double value =
+      0;  ///< the faulty number; for incompatible constraints, the distance of the primitive from the proxy, m
 };
 
-/// The first flaw, in the order stiffness, probe, previous proxy, primitives; nothing where the numbers are usable.
+/// The first flaw, in the order stiffness, probe, previous proxy, primitives; nothing if the numbers are usable.
 /// (Incompatible hard constraints are found by the solvers.) O(n), no allocation.
 std::optional<Rejection> validate(const Balance& balance);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A certificate for an answer. Needs no solver and no reference: anybody who has a balance, a proxy and the
-/// primitives' forces can check how far the proxy can be from the exact one.
+/// A certificate for an answer. It needs neither a solver nor a reference: the balance, a proxy and the primitives'
+/// forces give a bound on the distance to the exact proxy.
 
 #include <span>
 
@@ -21,21 +21,20 @@ struct Certificate {
   double slack = 0;     ///< J: eps, where the bound was evaluated
 };
 
-/// The law above, evaluated in double-double on the flat that holds the proxy, at its point nearest to the proxy (a
-/// rounded proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, where that is
-/// less.
+/// The law above, evaluated in double-double: on the flat that holds the proxy, at its point nearest to the proxy (a
+/// rounded proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, if that bound
+/// is smaller.
 ///
-/// forces: as many as primitives, N. A force outside its primitive's force body is replaced by the nearest one inside;
-/// so any forces give a true bound, and good ones a tight one. A hard constraint that the proxy does not meet adds its
-/// distance to the bound. If the constraints that hold the proxy and the hard ones cannot all be met at once, those
-/// that are missed by at most hard_tolerance are moved until they are met, and the bound is that of the balance so
-/// changed. If one is missed by more, the bound is infinite. The balance must be one that validate() accepts. O(n), no
-/// allocation.
+/// forces: one for each primitive, N. A force outside its primitive's force body is replaced by the nearest one inside;
+/// so any forces give a true bound, and good ones a tight one. A hard constraint that the proxy misses adds its
+/// distance to the bound. If the constraints that hold the proxy and the hard ones have no common point, those missed
+/// by at most hard_tolerance are moved until they have one, and the bound is that of the moved balance. If one is
+/// missed by more, the bound is infinite. The balance must be one that validate() accepts. O(n), no allocation.
 Certificate certify(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
-/// The largest error that counts as exact, m; every solver here keeps to it where the balance is well conditioned:
-/// 1e-14 m + 16 ulp of the coordinates (of the probe and of the primitives that act) and of the distance
-/// |sum of the forces| / k.
+/// The largest error that counts as exact, m. Every solver here keeps within it if the balance is well conditioned:
+/// 1e-14 m + 16 ulp of the coordinates (of the probe and of the primitives that act) and of the distance |sum of the
+/// forces| / k.
 double promised_accuracy(const Balance& balance, const Vec3& proxy, std::span<const Vec3> forces) noexcept;
 
 /// A hard constraint (infinite strength) counts as met by a point whose distance from it is below this fraction of L.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// The priority chain of section 5: the solvers are tried in order, and the first that can solve the balance answers. A
-/// solver that is known not to be needed can be switched off. If only the analytical one is left and its bound misses
-/// the promise by at most 1e-9 m, its answer is returned as Outcome::capped, with its true bound.
+/// solver that is not needed can be switched off. If only the analytical one is left and its bound misses the promise
+/// by at most 1e-9 m, its answer is returned as Outcome::capped, with its true bound.
 
 #include <cstddef>
 #include <memory>
@@ -15,12 +15,12 @@ namespace palpate::solver {
 
 struct ChainOptions {
   SolverSet solvers = SolverSet::usual();
-  bool warm_start = true;     ///< from the forces of the previous balance, if that had as many
-  int max_iterations = 0;     ///< of each solver; 0: its own number
+  bool warm_start = true;     ///< from the forces of the previous balance, if it had as many primitives
+  int max_iterations = 0;     ///< of each solver; 0: the solver's default
   std::size_t capacity = 64;  ///< primitives to reserve memory for
 };
 
-/// Holds what one tick hands to the next (the forces, as a start) and scratch memory: one for each thread.
+/// Keeps the forces of the previous tick, as a start for the next one, and scratch memory. One for each thread.
 class Chain {
  public:
   explicit Chain(const ChainOptions& options = {});
@@ -32,10 +32,10 @@ class Chain {
   /// spite of the warm start. The previous proxy is not compared, unless the solver that answered reads it.
   Solution solve(const Balance& balance, std::span<Vec3> forces) noexcept;
 
-  /// Bytes on the heap; those of a solver only if it is switched on.
+  /// Bytes on the heap, with those of each solver that is switched on.
   std::size_t memory_bytes() const noexcept;
 
-  /// The next balance starts cold.
+  /// The next balance starts without the forces of the previous one.
   void forget() noexcept;
 
  private:

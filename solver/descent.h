@@ -1,8 +1,7 @@
 #pragma once
 
-/// The paper's numerical solver, section 4: steepest descent from the previous proxy, kept as the reference that the
-/// other solvers are measured against. As printed it can cycle forever and can freeze millimeters away from the proxy.
-/// It is kept as printed.
+/// The paper's numerical solver, section 4: steepest descent from the previous proxy. It is kept as printed, as the
+/// reference for the other solvers. It can cycle forever and can freeze millimeters away from the proxy.
 
 #include <limits>
 #include <span>
@@ -19,10 +18,10 @@ struct DescentOptions {
   int max_iterations = 10000;                                     ///< then Outcome::capped
 };
 
-/// forces: as many as primitives; the force functions' values at the proxy found, N. They are zero on a constraint, so
-/// the error bound of a proxy that is held by one is true but loose: about the missing force / k.
+/// forces: one for each primitive; the force functions' values at the proxy found, N. They are zero on a constraint, so
+/// if a constraint holds the proxy, the error bound is true but loose: about the missing force / k.
 ///
-/// Outcome::unsuitable where a strength is infinite. The balance has to be one that validate() accepts. No allocation.
+/// Outcome::unsuitable if a strength is infinite. The balance has to be one that validate() accepts. No allocation.
 Solution solve_descent(const Balance& balance, const DescentOptions& options, std::span<Vec3> forces) noexcept;
 
 extern const SolverType descent_solver;

@@ -13,13 +13,13 @@
 /// * At the minimum on a flat, the force needed is shared among the locked primitives. If each can exert its share, the
 ///   proxy is found. Otherwise the one that falls shortest is released, and the walk goes on.
 ///
-/// The walk ends: every step lowers E, and the minimum of a flat is reached before the flat is left, so no flat is left
-/// twice, and there are finitely many. Where rounding prevents this, the cap on work ends it: Outcome::capped, with the
-/// best answer found and its true bound. If more primitives meet than are needed to fix a point, as at the old proxy,
-/// they share the force as the nearest point of the sum of their force bodies (exact/share.h). If that does not decide,
-/// they are moved apart by less than half an ulp, each in its own direction, and the walk is done again. Distances to
-/// near primitives are computed in double-double, relative to the probe, so that primitives parallel to within an ulp
-/// are told apart.
+/// The walk ends, because every step lowers E, the minimum of a flat is reached before the flat is left, so no flat is
+/// left twice, and there are finitely many flats. If rounding prevents this, the cap on work ends the walk:
+/// Outcome::capped, with the best answer found and its true bound. If more primitives meet than are needed to fix a
+/// point, as at the old proxy, they share the force as the nearest point of the sum of their force bodies
+/// (exact/share.h). If the shares do not decide which to release, the primitives are moved apart by less than half an
+/// ulp, each in its own direction, and the walk is done again. Distances to near primitives are computed in
+/// double-double, relative to the probe, so that primitives parallel to within an ulp are told apart.
 ///
 /// A hard constraint is given a very large strength, which is raised until all hard constraints are met: an exact
 /// penalty (D. P. Bertsekas, Constrained Optimization and Lagrange Multiplier Methods, 1982, 4.3).
@@ -50,8 +50,8 @@ class ExactScratch final : public Scratch {
   std::unique_ptr<Arrays> arrays_;
 };
 
-/// forces: as many as primitives; out: each primitive's force on the proxy, N. If constraints are redundant, these are
-/// one of many possible sets; the proxy is unique.
+/// forces: one for each primitive; out: its force on the proxy, N. If constraints are redundant, these are one of many
+/// possible sets; the proxy is unique.
 ///
 /// error_bound is certify()'s law, evaluated in double-double where the answer was found. Outcome::solved means: within
 /// promised_accuracy(), or as exact as data within 4 ulp allow (the bound may then be looser, and is still true).

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of balances.
+/// The messages about balances.
 
 #include "solver/text/message.h"
 
@@ -25,7 +25,7 @@ inline constexpr MessageRow balances[] = {
 
 namespace palpate::solver {
 
-/// The message of this id, with these values in its places.
+/// The message of this id, with these values in place of its {}.
 template <typename... Values>
 Text say(std::type_identity_t<ChosenMessage<sizeof...(Values), messages::balances>> message, const Values&... values) {
   return message.filled(values...);

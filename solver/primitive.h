@@ -14,13 +14,13 @@ enum class PrimitiveType : std::uint8_t { directed_force, plane, line, point };
 
 /// One primitive, constant during a tick.
 ///
-/// A plane pushes along +direction a proxy that is behind it ((position - proxy) . direction > 0); a line and a point
-/// attract; a directed force acts everywhere.
+/// A plane pushes a proxy behind it ((position - proxy) . direction > 0) along +direction; a line and a point attract;
+/// a directed force acts everywhere.
 struct Primitive {
   PrimitiveType type = PrimitiveType::directed_force;
   double strength = 0;  ///< N, >= 0; infinity makes a plane, line or point a hard constraint
-  Vec3 position{0};     ///< m; not read of a directed force
-  Vec3 direction{0};    ///< unit vector (the solvers normalize it once more); not read of a point
+  Vec3 position{0};     ///< m; not read for a directed force
+  Vec3 direction{0};    ///< unit vector (the solvers normalize it once more); not read for a point
 };
 
 inline Primitive make_directed_force(double strength, const Vec3& direction) {

@@ -20,7 +20,7 @@ enum class Outcome : std::uint8_t {
 
 struct Solution {
   Outcome outcome = Outcome::unsuitable;
-  const SolverType* solver = nullptr;  ///< which found it; null where none did
+  const SolverType* solver = nullptr;  ///< the solver that found it; null if none did
   int iterations = 0;
   Vec3 proxy{0};           ///< m
   double error_bound = 0;  ///< m: |proxy - exact proxy| is at most this

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A boundary as a pair of tissues, from and to: which gates say that a place lies between these two, and which
-/// crossing is resisted.
+/// A boundary as a pair of tissues, from and to: the gates that select places between these two, and the side that
+/// resists.
 
 #include <array>
 
@@ -13,8 +13,8 @@ namespace palpate::modes {
 TransferFunction gate_of(const Tissue& tissue);
 
 struct Boundary {
-  std::array<Gate, 2> gates;   ///< of low and of high: the values on both sides are those of the two tissues
-  Side side = Side::entering;  ///< entering where `to` has the higher values
+  std::array<Gate, 2> gates;   ///< of low and of high: the values on both sides have to be those of the two tissues
+  Side side = Side::entering;  ///< entering if `to` has the higher values
 };
 Boundary boundary_between(const Tissue& from, const Tissue& to);
 

@@ -5,7 +5,7 @@
 
 namespace palpate::modes {
 
-/// The tissue that a value of a CT most likely is, by its HU alone.
+/// The most likely tissue for a value of a CT, by its HU alone.
 inline const char* ct_tissue(double hu) noexcept {
   struct Range {
     double below;

@@ -1,12 +1,12 @@
 #pragma once
 
-/// The defaults of a scene that a hand may feel, with their units and reasons. Two kinds are elsewhere: the gradient's
-/// scale, which io::default_gradient_scale_mm() (io/fields/gradient.h) finds from a scan's voxels, and the simulated
-/// device and hand (device/simulated/simulated_stylus.h, simulated_hand.h).
+/// The defaults of a scene, with their units and reasons. Others are elsewhere: io::default_gradient_scale_mm()
+/// (io/fields/gradient.h) finds the gradient's scale from a scan's voxels; the simulated device and hand have their own
+/// (device/simulated/simulated_stylus.h, simulated_hand.h).
 
 namespace palpate::modes::defaults {
 
-/// k of the coupling, N/m: the safe value of Palmerius (2007), section 5; raised where the device allows.
+/// k of the coupling, N/m: the safe value of Palmerius (2007), section 5; raised if the device allows.
 inline constexpr double stiffness_n_per_m = 400.0;
 
 // Strengths, N: strong enough to be felt, and below every device's continuous force.
@@ -36,7 +36,7 @@ inline constexpr double level_reach_mm = 1.0;
 // tick.
 inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
-/// The farthest that the proxy jumps between two samples when a surface yields, mm of patient: less than the thinnest
+/// The longest jump of the proxy between two samples when a surface yields, mm of patient: less than the thinnest
 /// boundary that a CT can show. And the most halts of a tick.
 inline constexpr double proxy_step_mm = 0.125;
 inline constexpr int most_halts = 32;

@@ -15,18 +15,19 @@ namespace palpate::modes::internal {
 
 Site site_of(const Sides& sides) noexcept;
 
-/// Of the gradient's scale: within it both sides of an edge are found.
+/// In units of the gradient's scale: both sides of an edge lie within this distance.
 inline constexpr double reach_of_sides = 4;
 
 /// Remembers the place of every edge that a histogram counts.
 class EdgeSites {
  public:
-  /// The volume and the regions have to outlive it. `reach_mm`: how far from an edge its two sides are looked for.
+  /// The volume and the regions have to outlive it. `reach_mm`: how far from an edge its two sides are searched.
   EdgeSites(const io::Volume& volume, const Regions& regions, double reach_mm);
 
-  /// Of one block; may be called by several threads at a time.
+  /// Adds the edges of one block; may be called by several threads at a time.
   void add(std::span<const io::CountedEdge> edges);
-  /// Of the edges whose low side lies in bins [low_first, low_end), and their high side likewise.
+  /// Counts the edges whose low side lies in bins [low_first, low_end) and whose high side lies in [high_first,
+  /// high_end).
   SiteCounts count(int low_first, int low_end, int high_first, int high_end) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Edits as JSON, in a text of their own and in a scene's. Not installed.
+/// Edits as JSON, in a file of their own or in a scene. Not installed.
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -13,7 +13,7 @@ namespace palpate::modes {
 /// Throws InvalidInput with the path of the bad key.
 std::vector<io::Edit> edits_at(const At& at);
 
-/// Numbers are written so that they are read as the same bits.
+/// Numbers are written so that they read back as the same bits.
 nlohmann::ordered_json json_of_edits(const std::vector<io::Edit>& edits);
 
 }  // namespace palpate::modes

@@ -14,12 +14,12 @@ namespace palpate::modes {
 
 inline constexpr int edit_text_version = 1;
 
-/// Reads edits, in their order. What an edit may hold is checked when it is applied (io/structures/edits.h). `source`
-/// names the text in messages (a file's name). Throws InvalidInput with the source and the path of the bad key:
-/// "mend.json: edits[1].type: there is no "cut"; there are: trace, add, ...".
+/// Reads edits, in their order. An edit's values are checked when it is applied (io/structures/edits.h). `source` names
+/// the text in messages (a file's name). Throws InvalidInput with the source and the path of the bad key: "mend.json:
+/// edits[1].type: there is no "cut"; there are: trace, add, ...".
 std::vector<io::Edit> edits_from_json(std::string_view text, const std::string& source);
 
-/// The same text again, with every number to its last bit.
+/// The same text again; every number reads back as the same bits.
 std::string to_json(const std::vector<io::Edit>& edits);
 
 /// The edits in a file. Throws InvalidInput that names the file.

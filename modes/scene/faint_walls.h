@@ -3,10 +3,9 @@
 /// Boundaries within a tissue, fainter than those between tissues: a fissure in the lung, the wall of a vessel, one
 /// organ against the next.
 ///
-/// How faint one may be follows from the scan. Two sides are told apart where they differ by four standard deviations
-/// of what the tissue's own values differ by anyway (noise and texture), and where their hills do not run into one,
-/// which takes 3.5 bandwidths. An edge counts where its gradient is steeper than noise makes it. So a scan of one noisy
-/// tissue has none.
+/// The scan decides how faint a wall may be. Its two sides have to differ by four standard deviations of the tissue's
+/// own values (noise and texture). Their hills have to be separate, which takes 3.5 bandwidths. An edge counts if its
+/// gradient is steeper than noise. So a scan of one noisy tissue has no walls.
 
 #include <span>
 #include <vector>
@@ -18,19 +17,18 @@
 namespace palpate::modes::internal {
 
 struct FaintWall {
-  std::size_t within = 0;      ///< which of the tissues
+  std::size_t within = 0;      ///< index of the tissue
   double low = 0, high = 0;    ///< typical values of its two sides, scan's unit
-  Tissue low_side, high_side;  ///< their parts of the tissue; without names
-  double share = 0;            ///< of the voxels at boundaries between tissues
+  Tissue low_side, high_side;  ///< the two parts of the tissue; without names
+  double share = 0;            ///< part of the voxels at boundaries between tissues
   double noise_gradient = 0;   ///< standard deviation of a component, per mm
 };
 
-/// `range`: of the scan's values, its unit. The most frequent first.
+/// `range`: of the scan's values, in its unit. The most frequent wall comes first.
 std::vector<FaintWall> faint_walls(const io::LowHighHistogram& edges, const TissueHills& tissues,
                                    std::span<const Noise> noise, double range, double voxels_at_boundaries, bool is_ct);
 
-/// Per mm, of a gradient at that scale: an edge less steep may be noise, or is fainter than any wall that is looked
-/// for.
+/// Per mm, for a gradient at that scale: a less steep edge may be noise, or is fainter than any wall that is found.
 double least_gradient_of_walls(const ScanNoise& noise, double scale_mm);
 
 }  // namespace palpate::modes::internal

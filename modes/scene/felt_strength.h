@@ -1,7 +1,7 @@
 #pragma once
 
 /// The force with which the modes hold the proxy at each voxel of a scan: the sum of their strengths. For pictures of a
-/// whole scan, where sampling each voxel for itself takes ten times as long; the results are the same to the last bit.
+/// whole scan: sampling voxel by voxel takes ten times as long, and gives the same bits.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -19,22 +19,22 @@ std::vector<const ActiveMode*> holding_modes(const Plan& plan);
 /// The sum of the modes' strengths at voxels. The modes may read value, gradient, low and high. Immutable: any number
 /// of threads may use it.
 ///
-/// Where no mode reads low or high, the value is the voxel's own. Where one does, a voxel is sampled as in a tick, but
-/// only what can be felt: its value where some mode's gradient factor is not zero; low and high where that mode's
+/// If no mode reads low or high, the value is the voxel's own. If one does, voxels are sampled as in a tick, but only
+/// where they can be felt: the value where some mode's gradient factor is not zero; low and high where that mode's
 /// value factor is not zero either.
 class FeltStrength {
  public:
-  /// All of them have to outlive it. `value` and `scale_mm` (sigma of the gradients' Gaussian) are read with low and
-  /// high only.
+  /// All of them have to outlive it. `value` and `scale_mm` (sigma of the gradients' Gaussian) are used only with low
+  /// and high.
   FeltStrength(const io::Volume& volume, std::span<const ActiveMode* const> modes, io::ValueMethod value,
                double scale_mm);
 
-  /// N, at the voxels from `first` on along a row, whose gradients (patient axes, per mm) are given; zero in padding.
+  /// N, at the voxels of a row from `first` on, with these gradients (patient axes, per mm); zero in padding.
   void at_row(const glm::ivec3& first, std::span<const glm::vec3> gradients, std::span<float> felt) const;
 
  private:
   struct Row;
-  using Bits = std::uint64_t;  ///< of the voxels of a row, the first is the lowest
+  using Bits = std::uint64_t;  ///< of the voxels of a row; the first voxel is the lowest bit
 
   void add_up(const glm::ivec3& first, Row& row) const;
   void sample_and_add_up(const glm::ivec3& first, std::span<const glm::vec3> gradients, Row& row) const;

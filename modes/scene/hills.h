@@ -1,6 +1,6 @@
 #pragma once
 
-/// The hills of a curve: where its counts gather.
+/// The hills of a curve: the ranges around its maxima.
 
 #include <cstddef>
 #include <span>
@@ -13,10 +13,10 @@ struct Hill {
   std::size_t first = 0, top = 0, end = 0;
 };
 
-/// The hills whose top stands out of the higher of its two valleys by at least `prominence` of its height, and which
-/// hold at least `mass` of the sum, in ascending order; together they cover the whole curve. Source: persistence of the
-/// maxima of a function on a line (Edelsbrunner and Harer, "Computational Topology", 2010), by merging the least
-/// prominent hill into its neighbor until all stand out.
+/// The hills of a curve, in ascending order; together they cover it. Each hill's top is above the higher of its two
+/// valleys by at least `prominence` of its height, and each holds at least `mass` of the sum. The least prominent hill
+/// is merged into its neighbor until all satisfy this: persistence of the maxima of a function on a line (Edelsbrunner
+/// and Harer, "Computational Topology", 2010).
 std::vector<Hill> hills_of(std::span<const float> curve, double prominence, double mass);
 
 }  // namespace palpate::modes::internal

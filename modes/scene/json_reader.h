@@ -1,6 +1,6 @@
 #pragma once
 
-/// Reading JSON so that every error names the path of the bad key, and no key goes unread in silence.
+/// Reading JSON: every error names the path of the bad key, and an unknown key is an error.
 
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ inline glm::dvec3 vector3(const At& at) {
   return {number(at[0]), number(at[1]), number(at[2])};
 }
 
-/// The members of an object; done() refuses those that nobody asked for. `whole`: what a text without a path is called.
+/// The members of an object; done() refuses those that were not read. `whole`: the name of the top level in messages.
 class Members {
  public:
   explicit Members(const At& at, const char* whole = "scene") : at_(at) {
@@ -81,7 +81,7 @@ class Members {
     }
     return {at_.value.at(key), path_of(key)};
   }
-  /// Where the key is present: reads it.
+  /// Reads the value if the key is present.
   template <typename Value, typename Read>
   void optional(const std::string& key, Value& value, const Read& read) {
     if (has(key)) {

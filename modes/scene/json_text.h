@@ -1,6 +1,6 @@
 #pragma once
 
-/// From a text to JSON, with errors that name where the text comes from. Not installed.
+/// Parses JSON, with errors that name the source of the text. Not installed.
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,7 +13,7 @@
 
 namespace palpate::modes {
 
-/// The text as JSON; of a key that is given twice the library would silently keep the last.
+/// The text as JSON. Refuses a key that is given twice: the library would silently keep the last.
 inline nlohmann::json parsed(std::string_view text) {
   std::vector<std::set<std::string>> open;
   const auto check = [&open](int depth, nlohmann::json::parse_event_t event, nlohmann::json& key) {
@@ -31,7 +31,7 @@ inline nlohmann::json parsed(std::string_view text) {
   return nlohmann::json::parse(text, check);
 }
 
-/// What `read` gives, with every error naming the source.
+/// Calls `read`; every error names the source.
 template <typename Read>
 auto read_from(const std::string& source, const Read& read) {
   try {

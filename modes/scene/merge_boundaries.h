@@ -1,6 +1,6 @@
 #pragma once
 
-/// Boundaries of a CT that have one name for a clinician become one: skin over fat and skin over muscle are *Skin*.
+/// Merges boundaries of a CT that have one name for a clinician: skin over fat and skin over muscle are *Skin*.
 
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace palpate::modes::internal {
 
-/// Merges boundaries whose lower and whose higher tissues have the same name but for fat and soft tissue, as far as one
-/// value lies well between the two tissues of each; not two kinds of bone in tissue. The merged one is felt at that
-/// value, has the shares of all, and lies between tissues of its own, which are added to the suggestion: they reach
-/// over those of the parts. The most frequent boundary comes first, as before.
+/// Merges boundaries if their lower tissues have the same name and their higher ones too (fat counts as soft tissue),
+/// and if one value lies well between the two tissues of each. Two kinds of bone in soft tissue are not merged. The
+/// merged boundary is felt at that value and has the sum of the shares. It lies between new tissues, which are added to
+/// the suggestion and span the ranges of the parts. The most frequent boundary comes first, as before.
 void merge_boundaries(std::vector<FoundBoundary>& boundaries, Suggestion& suggestion);
 
 }  // namespace palpate::modes::internal

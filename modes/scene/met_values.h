@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where a boundary of values begins to be felt.
+/// The values at which a boundary begins to be felt.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace palpate::modes {
 /// The product of a mode's gates over value.
 double value_factor(const Mode& mode, double value);
 
-/// The values at which a surface begins to be felt from the side that it resists: where the product of its gates over
+/// The values at which a surface begins to be felt from the side that it resists: there the product of its gates over
 /// value reaches half of its largest factor. Empty for a mode without a gate over value.
 std::vector<double> met_values(const Mode& mode, Side side);
 

@@ -16,13 +16,13 @@ inline std::string number_text(double value) {
   return {text.data(), end};
 }
 
-/// The nearest multiple of 10^exponent. Correctly rounded, so that it is written with as few digits.
+/// The nearest multiple of 10^exponent. Correctly rounded, so that it is written with no more digits than that.
 inline double rounded_to(double value, int exponent) {
   const double power = std::pow(10.0, std::abs(exponent));
   return (exponent < 0 ? std::round(value * power) / power : std::round(value / power) * power) + 0.0;
 }
 
-/// A value among others that span `range`: whole, or to a hundredth of the range where that is less.
+/// A value among others that span `range`: whole, or rounded to a hundredth of the range if that is less than 1.
 inline std::string number_text(double value, double range) {
   return number_text(rounded_to(value, std::min(0, static_cast<int>(std::floor(std::log10(range))) - 2)));
 }

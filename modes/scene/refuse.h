@@ -6,7 +6,7 @@
 
 namespace palpate::modes {
 
-/// Refuses a scene for what stands at the path.
+/// Throws InvalidInput that names the path in the scene and the reason.
 [[noreturn]] inline void refuse(const std::string& path, const Text& why) {
   throw InvalidInput(at_place(path, why));
 }

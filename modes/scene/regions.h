@@ -1,12 +1,11 @@
 #pragma once
 
-/// What lies where in a CT, as far as it follows without a guess: air outside the body or inside it, the body, the
-/// table.
+/// The regions of a CT, as far as they follow without a guess: air outside the body or inside it, the body, the table.
 ///
-/// On a grid of about 2.5 mm, each cell the mean of its voxels, air is what is less than -400 HU. It is the room's
-/// where it is connected with the sides of the scan, and most of it at these sides is empty (below -900 HU, which a
-/// lung that the scan cuts is not). The body is all that is thicker than 15 mm, and what lies on it. Thin things beside
-/// it are the table's. Air within the body is lung where it is large and has a lung's values.
+/// On a grid of about 2.5 mm, each cell is the mean of its voxels, and air is below -400 HU. Air is the room's if it is
+/// connected with the sides of the scan and most of it at these sides is empty (below -900 HU, which a lung cut by the
+/// scan is not). The body is everything thicker than 15 mm, and what lies on it. Thin things beside it are the table.
+/// Air within the body is lung if it is large and has a lung's values.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -23,21 +22,21 @@ inline bool is_air(Region region) noexcept {
   return region == Region::room || region == Region::lung || region == Region::inner_air;
 }
 
-/// Where an edge lies: the first air on its darker side and the first solid on its brighter side; `none` where there is
-/// none near.
+/// The regions beside an edge: the first air on its darker side and the first solid on its brighter side; `none` if
+/// there is none near.
 struct Sides {
   Region low = Region::none, high = Region::none;
 };
 
 class Regions {
  public:
-  /// Values in HU. On `threads` threads (0: all cores).
+  /// Values in HU. Uses `threads` threads (0: all cores).
   explicit Regions(const io::Volume& volume, int threads = 0);
 
-  /// Padding and all outside the scan: none.
+  /// `none` in padding and outside the scan.
   Region at(const glm::dvec3& index) const noexcept;
-  /// Of an edge at a voxel, whose gradient (patient space) points to its brighter side; looked for within `reach_mm`.
-  /// The brighter side is air too where no solid is near.
+  /// The sides of an edge at a voxel, searched within `reach_mm`. The gradient (patient space) points to the brighter
+  /// side, which is air too if no solid is near.
   Sides sides(const io::Geometry& geometry, const glm::ivec3& voxel, const glm::dvec3& gradient, double reach_mm) const;
   double milliliters(Region region) const noexcept;
 

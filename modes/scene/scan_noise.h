@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a scan's values and gradients do where there is no boundary: how small a step of the values can still be told
+/// The noise of a scan's values and gradients away from boundaries: the smallest step of the values that can be told
 /// from noise and texture.
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 namespace palpate::modes::internal {
 
 struct Spread {
-  double low = 0, high = 0;  ///< nearly all values lie between; scan's unit
-  double noise = 0;          ///< standard deviation from a voxel to its neighbor, over sqrt(2)
+  double low = 0, high = 0;  ///< nearly all values lie between them; scan's unit
+  double noise = 0;          ///< standard deviation of the difference between neighboring voxels, over sqrt(2)
 };
 
 struct Noise {
@@ -22,17 +22,17 @@ struct Noise {
   double gradient = 0;  ///< of one component at the kernel's scale, per mm
 };
 
-/// What is measured at some voxels, evenly spread over the scan. The voxels are chosen and read once, on `threads`
-/// threads (0: all cores); what is measured does not depend on them.
+/// Noise measured at some voxels, evenly spread over the scan. They are chosen and read once, on `threads` threads (0:
+/// all cores); the result does not depend on the number of threads.
 class ScanNoise {
  public:
   ScanNoise(const io::Volume& volume, const io::GradientKernel& kernel, int threads);
 
   const Spread& spread() const noexcept { return spread_; }
-  /// Of each of the ranges between ascending limits; limits.size() + 1 of them, and the outermost are open. The values
-  /// are compared over two scales of the kernel, as the two sides of a boundary are: so noise that a reconstruction has
-  /// smeared counts in full, and texture counts too. Edges are too few to matter. The scan's lowest value is passed
-  /// over: a background that was cut off there has no noise of its own.
+  /// The noise of each range between ascending limits: limits.size() + 1 ranges, the outermost open. Values are
+  /// compared over two scales of the kernel, the distance between the two sides of a boundary: so noise smeared by
+  /// reconstruction counts in full, and texture counts too. Edges are too few to matter. The scan's lowest value is
+  /// left out: a background clipped there has no noise.
   std::vector<Noise> between(std::span<const double> limits) const;
 
  private:

@@ -1,7 +1,6 @@
 #pragma once
 
-/// A scene: what a clinician tunes, as plain values. Its text form is in scene_json.h; what a scan makes of it is in
-/// plan.h.
+/// A scene: what a clinician tunes, as plain values. scene_json.h has its text form, plan.h its form for a scan.
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -20,12 +19,12 @@
 
 namespace palpate::modes {
 
-/// What a transfer function reads at the proxy.
+/// The datum at the proxy that a transfer function reads.
 enum class Datum : std::uint8_t {
   value,               ///< HU for CT, the stored unit for others
   gradient_magnitude,  ///< per mm
   vector_magnitude,    ///< the vector field's unit
-  low,                 ///< value on the thinner side of the nearest boundary
+  low,                 ///< value on the less dense side of the nearest boundary
   high,                ///< value on the denser side
   distance             ///< from the surface of a structure, mm, positive inside
 };
@@ -47,27 +46,27 @@ enum class Shape : std::uint8_t { point, line, plane };
 struct Gate {
   Datum of = Datum::value;
   TransferFunction factor;
-  std::string structure = {};  ///< whose distance it is, where it is one
+  std::string structure = {};  ///< if `of` is distance: the structure
 };
 
-/// One mode of a scene. Every type of mode (mode_type.h) reads some of this and refuses what it does not read.
+/// One mode of a scene. Every type of mode (mode_type.h) reads some of these and refuses the others.
 struct Mode {
   std::string type;  ///< "force", "follow", "surface", "friction", ...
-  std::string name;  ///< the user's own; unique in the scene, or empty
+  std::string name;  ///< given by the user; unique in the scene, or empty
   bool enabled = true;
   Datum strength_of = Datum::value;
-  std::string strength_structure;  ///< whose distance that is, where it is one
+  std::string strength_structure;  ///< if strength_of is distance: the structure
   TransferFunction strength_n;     ///< N
   std::vector<Gate> gates;         ///< multiplied into the strength
   Side side = Side::entering;
   DirectionField direction_of = DirectionField::vector;
-  std::string structure;  ///< whose edge a surface follows, or which keep_out and keep_in name; or empty
-  double level_mm = 0;    ///< of such a surface: how far inside the edge
+  std::string structure;  ///< whose edge a surface follows, or that keep_out or keep_in names; or empty
+  double level_mm = 0;    ///< how far inside the structure's edge that surface is
   double margin_mm = 3;   ///< keep_out, keep_in: how far before the edge the force begins, > 0
   std::string from, to;   ///< names of tissues: the boundary that a surface follows, instead of a side; or both empty
   Shape shape = Shape::point;
   Vec3 position_mm{0};      ///< patient space
-  Vec3 direction{0, 0, 1};  ///< patient axes, unit: along a line; of a plane, the side it pushes to
+  Vec3 direction{0, 0, 1};  ///< patient axes, unit: along a line; for a plane, the side that it pushes to
   std::string color;        ///< "#rrggbb", or empty
 };
 
@@ -82,17 +81,18 @@ struct Tissue {
 
 /// Something that was outlined on the scan (io/structures). A scene reads the distance from its surface.
 struct SceneStructure {
-  std::string name;     ///< the scene's own, unique in it
-  std::string file;     ///< that holds it; load_scene() makes it absolute, from the scene's own folder. Empty where its
-                        ///< edits begin with contours: they make it
-  std::string segment;  ///< its name there; or its number; empty without a file
+  std::string name;  ///< unique in the scene
+  /// The file that holds it; load_scene() makes it absolute, from the scene's own folder. Empty if its edits begin with
+  /// contours, which then make it.
+  std::string file;
+  std::string segment;  ///< its name in the file; or its number; empty without a file
   std::optional<int> segment_number;
   std::string color;                ///< "#rrggbb", or empty
-  std::optional<double> margin_mm;  ///< the user is told when the stylus is nearer than this
-  std::vector<io::Edit> edits{};    ///< of its outline, in their order; its file stays as it is
+  std::optional<double> margin_mm;  ///< the user is warned when the stylus is nearer than this
+  std::vector<io::Edit> edits{};    ///< of its outline, in their order; its file does not change
 };
 
-/// Whether a structure has no file and is made by the contours that its edits begin with.
+/// Whether a structure has no file, so that the contours at the start of its edits make it.
 bool is_drawn(const SceneStructure& structure) noexcept;
 
 struct Limits {
@@ -106,16 +106,16 @@ struct Limits {
 struct Subdivision {
   double step_mm = defaults::sub_step_mm;          ///< probe travel of one sub-step, mm of patient
   int most = defaults::most_sub_steps;             ///< 1: never subdivided
-  double proxy_step_mm = defaults::proxy_step_mm;  ///< farther jumps of the proxy are halted on the way, mm of patient
+  double proxy_step_mm = defaults::proxy_step_mm;  ///< longer jumps of the proxy are halted on the way, mm of patient
   int most_halts = defaults::most_halts;           ///< 0: never halted
 };
 
-/// How the scan is placed in the hand's reach. place_workspace() makes a Workspace for a scan of it.
+/// The placement of the scan in the reach of the hand. place_workspace() makes a Workspace from it for a scan.
 struct WorkspaceSettings {
   std::optional<Vec3> center_mm;               ///< patient point at the device's origin; the scan's center by default
   glm::dmat3 rotation = Workspace{}.rotation;  ///< columns: the device's x, y and z axes in patient space
   double scale = defaults::workspace_scale;    ///< mm of patient for one mm of hand
-  bool fit = false;                            ///< scale chosen so that the whole scan fits the device instead
+  bool fit = false;                            ///< the scale is chosen so that the whole scan fits the device
 };
 
 /// How the scan is read between its voxels (io/fields/field_options.h).
@@ -135,9 +135,10 @@ struct Scene {
   double stiffness_n_per_m = defaults::stiffness_n_per_m;
   Limits limits;
   WorkspaceSettings workspace;
-  solver::SolverSet solvers = solver::SolverSet::usual();  ///< allowed; the plan leaves out those that it cannot need
+  solver::SolverSet solvers =
+      solver::SolverSet::usual();  ///< allowed solvers; the plan leaves out those that it cannot need
   Subdivision subdivision;
-  io::Filter filter;  ///< of the scan's values, before anything reads them
+  io::Filter filter;  ///< of the scan's values, applied before they are read
   Sampling sampling;
   std::optional<double> gradient_scale_mm;  ///< by default io::default_gradient_scale_mm() of the scan
   std::vector<Tissue> tissues;
@@ -149,10 +150,10 @@ struct Scene {
 /// is negative; a strength is in newtons, 0 or more".
 void validate(const Scene& scene);
 
-/// What a scene asks of io::VolumeFields.
+/// The options for io::VolumeFields.
 io::FieldOptions field_options(const Sampling& sampling);
 
-/// The workspace for a scan whose voxels' bounding box (patient space, mm) is given, held with a device that reaches
+/// The workspace for a scan with this bounding box of its voxels (patient space, mm) and a device that reaches
 /// half_extent_m from its origin along each of its own axes.
 Workspace place_workspace(const WorkspaceSettings& settings, const Vec3& box_low_mm, const Vec3& box_high_mm,
                           const Vec3& half_extent_m);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The names that scenes use for enumerations, both ways.
+/// The names of enumerators in scenes, both ways.
 
 #include <array>
 #include <string>

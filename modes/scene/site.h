@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where the edges of a CT lie.
+/// The places of edges in a CT.
 
 #include <array>
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace palpate::modes {
 
-/// Skin is where air of the room meets the body; lung and inner_air, where air within the body does; cloth, and foam,
-/// where air meets what is lighter than -400 HU; elsewhere, where no air is near.
+/// skin: air of the room meets the body; lung and inner_air: air within the body meets it; cloth (also foam): air meets
+/// material lighter than -400 HU; elsewhere: no air is near.
 enum class Site : std::uint8_t { skin, lung, inner_air, table, cloth, elsewhere };
 inline constexpr std::size_t sites = 6;
-/// How many edges lie at each place.
+/// The number of edges at each place.
 using SiteCounts = std::array<std::uint64_t, sites>;
 
 }  // namespace palpate::modes

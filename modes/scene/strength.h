@@ -15,7 +15,7 @@
 
 namespace palpate::modes {
 
-/// The datum of a sample; `structure` says whose distance. In the tick.
+/// The datum of a sample; for a distance, that of `structure`. In the tick.
 double datum_of(const io::Sample& sample, Datum datum, std::size_t structure) noexcept;
 /// The field that a datum is part of.
 io::FieldSet field_of(Datum datum) noexcept;
@@ -24,17 +24,18 @@ class Strength {
  public:
   Strength() = default;
   Strength(Datum of, const TransferFunction& newtons, const std::vector<Gate>& gates);
-  /// Where distances are read: `index_of` gives the index of a structure in Sample::distance by its name.
+  /// For modes that read distances: `index_of` gives a structure's index in Sample::distance by its name.
   Strength(const Mode& mode, const std::function<std::size_t(const std::string&)>& index_of);
 
   /// N, >= 0. In the tick.
   double operator()(const io::Sample& sample) const noexcept;
   static constexpr std::size_t most_at_once = 64;
-  /// Adds that of many samples, at most most_at_once, with the same bits. It must read no more than value and gradient.
+  /// Adds the strengths of many samples, at most most_at_once, with the same bits. It must read only value and
+  /// gradient.
   void add_to(std::span<const double> values, std::span<const double> magnitudes,
               std::span<double> sums) const noexcept;
-  /// Of at most most_at_once samples whose datum is known, those among `bits` (the first sample is the lowest) at
-  /// which no factor of that datum is zero.
+  /// Of at most most_at_once samples with these data, those among `bits` (the first sample is the lowest) at which no
+  /// factor of that datum is zero.
   std::uint64_t not_zero(Datum of, std::span<const double> data, std::uint64_t bits) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;

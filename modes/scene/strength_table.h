@@ -1,6 +1,6 @@
 #pragma once
 
-/// A transfer function in the form for the tick: O(1), whatever the number of nodes.
+/// A transfer function in the form for the tick: O(1) for any number of nodes.
 
 #include <cstdint>
 #include <span>
@@ -18,8 +18,8 @@ class StrengthTable {
 
   /// In the tick: does not allocate or throw. NaN gives the value of the first node.
   double operator()(double at) const noexcept;
-  /// Multiplies each product by the value at its datum. False if all products would be zero; they may be left as
-  /// they are then.
+  /// Multiplies each product by the value at its datum. False if all products would be zero; then they may be
+  /// unchanged.
   bool multiply(std::span<const double> at, std::span<double> products) const noexcept;
   /// Of at most 64 data, those among `bits` (the first is the lowest) at which the value is not zero.
   std::uint64_t not_zero(std::span<const double> at, std::uint64_t bits) const noexcept;

@@ -4,8 +4,8 @@
 ///
 /// The voxels at boundaries are counted by the values on their two sides (io/fields/low_high.h). A tissue is a peak of
 /// the smoothed counts of low and high values together. A boundary is a pair of tissues with enough voxels between
-/// them. So a tissue counts by its surface and not by its volume, as it does for a hand: a thin skull is found as
-/// surely as a large volume of air. A tissue without a boundary is not found.
+/// them. So a tissue counts by its surface and not by its volume: a thin skull is found as surely as a large volume of
+/// air. A tissue without a boundary is not found.
 
 #include <memory>
 #include <string>
@@ -18,32 +18,33 @@
 
 namespace palpate::modes {
 
-/// A boundary as it was found: modes[mode] of the scene.
+/// A boundary that was found: modes[mode] of the scene.
 struct FoundBoundary {
   std::size_t mode = 0;           ///< crossed from the lower to the higher values
-  std::size_t way_back = 0;       ///< the mode that is crossed the other way; switched off
+  std::size_t way_back = 0;       ///< the mode for the other way; switched off
   std::size_t low = 0, high = 0;  ///< its two tissues in the scene
-  double middle = 0;  ///< where it is felt: half-way from the one's typical value to the other's, or nearer to the
-                      ///< softer tissue of bone; scan's unit
-  double share = 0;   ///< of all voxels at boundaries between tissues
-  std::string within = {};  ///< the tissue that both sides are part of, of a fainter wall within one
-  SiteCounts sites = {};    ///< of a CT: where its edges lie
+  /// The value at which it is felt: half-way between the two typical values, or for bone nearer to the softer tissue;
+  /// scan's unit.
+  double middle = 0;
+  double share = 0;         ///< of all voxels at boundaries between tissues
+  std::string within = {};  ///< for a fainter wall within a tissue: that tissue
+  SiteCounts sites = {};    ///< CT only: where its edges lie
 };
 
 struct Suggestion {
   Scene scene;
-  std::vector<double> typical;            ///< of each of the scene's tissues, scan's unit; first those in ascending
-                                          ///< order, then the sides of fainter walls
+  /// For each of the scene's tissues, scan's unit: first those in ascending order, then the sides of fainter walls.
+  std::vector<double> typical;
   std::vector<FoundBoundary> boundaries;  ///< most frequent first, as the scene's modes
-  io::LowHighHistogram edges;             ///< what they were found in
+  io::LowHighHistogram edges;             ///< the counts in which they were found
 };
 
 /// Tissues of a CT are named by their HU (air, lung or foam, fat, soft tissue, bone, metal), others by their rank.
-/// Every boundary becomes a surface with a name (boundary_names.h), a switch, and its tissue's color (tissue_colors.h);
-/// where two are of one tissue, the second has a color that the color-blind can tell from the others.
-/// Its strength rises with the gradient and begins at the boundary's middle, so that it is felt there. The way back,
-/// from the higher to the lower values, is a second surface of the same color, switched off, since a hand comes from
-/// outside. A scan without boundaries gives a scene without modes. Throws io::Cancelled.
+/// Every boundary becomes a surface with a name (boundary_names.h), a switch, and its tissue's color (tissue_colors.h).
+/// If two are of one tissue, the second gets another color that the color-blind can tell from the rest. Its strength
+/// rises with the gradient and begins at the boundary's middle, so that it is felt there. The way back, from the higher
+/// to the lower values, is a second surface of the same color, switched off, since a hand comes from outside. A scan
+/// without boundaries gives a scene without modes. Throws io::Cancelled.
 Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress = {}, int threads = 0);
 
 }  // namespace palpate::modes

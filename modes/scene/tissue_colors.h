@@ -1,6 +1,6 @@
 #pragma once
 
-/// The color of a boundary by the tissue that it is of: the same in the starting scenes and in those that are proposed.
+/// The color of a boundary by its tissue: the same in the starting scenes and in proposed ones.
 ///
 /// Okabe and Ito's colors: told apart by the color-blind too. Source: "Color universal design", 2008.
 
@@ -19,8 +19,8 @@ constexpr const char* color_of(TissueKind kind) noexcept {
   return tissue_colors[static_cast<std::size_t>(kind)];
 }
 
-/// Of a boundary that is named by one tissue or by several, as "Skin, lung surface and table": of the first. Soft
-/// tissue where the name says nothing of these.
+/// The kind of a boundary by its name; for several tissues, such as "Skin, lung surface and table", that of the first.
+/// Soft tissue if the name has none of these.
 TissueKind kind_of(std::string_view boundary_name);
 
 }  // namespace palpate::modes

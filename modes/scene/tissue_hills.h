@@ -1,6 +1,6 @@
 #pragma once
 
-/// Tissues as the hills of the values that edges lie between.
+/// Tissues as hills in the histogram of the values beside edges.
 
 #include <cstddef>
 #include <vector>
@@ -12,22 +12,23 @@ namespace palpate::modes::internal {
 
 struct TissueHills {
   std::vector<Hill> hills;      ///< in bins; together they cover the range
-  std::vector<double> typical;  ///< value of each: the top of its hill, scan's unit
+  std::vector<double> typical;  ///< the value at the top of each hill, scan's unit
 };
 
 struct BinRange {
   int first = 0, end = 0;
 };
 
-/// Among the edges whose two sides both lie in the range and at least `least_bins` apart; smoothed by a Gaussian of
-/// `bandwidth` (scan's unit). In CT what is softer than bone ends nearer to the softer side.
+/// The tissues among the edges whose two sides lie in the range and at least `least_bins` apart; the counts are
+/// smoothed by a Gaussian of `bandwidth` (scan's unit). In CT, a tissue softer than bone ends nearer to its softer
+/// side.
 TissueHills tissue_hills(const io::LowHighHistogram& edges, BinRange range, int least_bins, double bandwidth,
                          bool is_ct);
 
-/// Where a boundary is, of the way from one typical value to the other.
+/// Where a boundary is, as a part of the way from one typical value to the other.
 double place_between(double low, double high, bool is_ct);
 
-/// Above, a tissue of a CT is bone.
+/// A tissue of a CT above this is bone.
 inline constexpr double least_bone_hu = 150;
 
 }  // namespace palpate::modes::internal

@@ -33,7 +33,7 @@ class TransferFunction {
   double operator()(double at) const noexcept;
 
   std::span<const Node> nodes() const noexcept { return nodes_; }
-  /// At each node, of the monotone cubic; empty where linear.
+  /// The slope at each node of the monotone cubic; empty if linear.
   std::span<const double> slopes() const noexcept { return slopes_; }
   Interpolation interpolation() const noexcept { return interpolation_; }
   double minimum() const noexcept;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Four bodies with known boundaries, and four ways in which a scanner may lay its voxels over them.
+/// Four bodies with known boundaries, and four grids of voxels to scan them with.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -14,16 +14,16 @@
 
 namespace palpate::modes::testing {
 
-/// A point of a boundary, and the direction it pushes to.
+/// A point of a boundary, and the boundary's outward direction.
 struct Spot {
   Vec3 at{0};
   Vec3 outward{0};
   double low = testdata::air_hu, high = testdata::soft_tissue_hu;
-  double radius = 0;  ///< of a round boundary, mm
-  int bends = 0;      ///< along how many directions it is round: 0 flat, 1 a tube, 2 a sphere
+  double radius = 0;  ///< of a curved boundary, mm
+  int bends = 0;      ///< the number of directions along which it is curved: 0 flat, 1 a tube, 2 a sphere
 };
 
-/// Where the value rises to: every body is denser than what is outside of it.
+/// The direction in which the value rises: every body is denser than its outside.
 inline Vec3 uphill(const Spot& spot) {
   return -spot.outward;
 }
@@ -82,7 +82,7 @@ inline Body tube() {
   return body;
 }
 
-/// Its three faces, farther than three times the gradient's scale from the edge where they meet.
+/// Its three faces, at points farther than three times the gradient's scale from the edge where they meet.
 inline Body wedge() {
   Body body{"wedge", testdata::make_wedge(90), {}};
   const Vec3 interface =

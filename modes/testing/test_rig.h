@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the tests and benchmarks of this folder share: a hand that steps a plan through a source, in patient space.
+/// A hand for tests and benchmarks: it steps a plan through a source, in patient space.
 
 #include <memory>
 
@@ -13,7 +13,7 @@
 
 namespace palpate::modes::testing {
 
-/// Of the spring between hand and proxy, where a scene names no other.
+/// The coupling between hand and proxy, for scenes that set no other.
 inline constexpr double stiffness_n_per_mm = 0.4;
 
 /// Steps with probe positions of patient space; mm and N along patient axes.
@@ -45,7 +45,7 @@ class Hand {
   std::unique_ptr<StepScratch> scratch_ = std::make_unique<StepScratch>();
 };
 
-/// What one tick hands to the next, of a hand that works in another workspace.
+/// The state of a tick, converted to the frame of another workspace.
 inline Touch seen_in(const Workspace& workspace, Touch touch) {
   const auto there = [&](const Vec3& here_m) { return workspace.to_device(touch.workspace.to_patient(here_m)); };
   touch.probe_m = there(touch.probe_m);
@@ -77,7 +77,7 @@ inline Scene scene_of(std::vector<Mode> modes, int most_sub_steps = 1) {
   return scene;
 }
 
-/// The hand's moves are not divided at boundaries.
+/// A scene in which the hand's moves are not divided at boundaries.
 inline Scene tick_by_tick(const Mode& mode) {
   Scene scene = scene_of({mode});
   scene.subdivision.most_halts = 0;

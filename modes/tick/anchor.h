@@ -34,31 +34,31 @@ enum class HoldState : std::uint8_t {
   yielding  ///< pushed through a surface that gives its full strength
 };
 
-/// How two surfaces hold the proxy together: held by one of them goes before yielding through the other.
+/// How two surfaces hold the proxy together: held by one takes precedence over yielding through the other.
 constexpr HoldState joined(HoldState one, HoldState other) noexcept {
   if (one == HoldState::held || other == HoldState::held) return HoldState::held;
   return std::max(one, other);
 }
 
-/// What is remembered of the surface at the proxy.
+/// The state of the surface at the proxy.
 struct HeldSurface {
   HoldState hold = HoldState::none;
-  HoldState before = HoldState::none;  ///< a tick earlier
+  HoldState before = HoldState::none;  ///< in the previous tick
   double level = 0;                    ///< at the last place sampled, the scan's unit
-  double offset = 0;                   ///< of the level from V, where it began to hold
+  double offset = 0;                   ///< of the level from V, at the start of the hold
   double held_level = 0;               ///< V_c
   double value = 0;                    ///< V at the last place sampled, the scan's unit
   Vec3 place_mm{0};                    ///< last place sampled, patient space
   Vec3 gradient{0};                    ///< there, per mm
 };
 
-/// What is remembered of all surfaces: of the scan's own, and of each structure's (Sample::distance).
+/// The state of all surfaces: of the scan's own, and of each structure's (Sample::distance).
 struct HeldSurfaces {
   HeldSurface scan;
   std::array<HeldSurface, io::most_structures> structure;
 
   bool is_held() const noexcept;
-  /// Forgets every hold. To be called when the proxy has been moved from outside.
+  /// Forgets every hold. Call it when something else has moved the proxy.
   void release() noexcept;
 };
 
@@ -66,11 +66,11 @@ struct HeldSurfaces {
 void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, HeldSurface& contact) noexcept;
 void follow_level(const io::Sample& sample, const Vec3& place_mm, HeldSurface& contact) noexcept;
 
-/// The step from the place sampled to the anchor, mm of patient space. Zero while nothing holds the proxy, and at most
-/// defaults::anchor_step_mm long. Renews held_level while nothing holds the proxy. In the tick.
+/// The step from the place sampled to the anchor, mm of patient space. Zero if nothing holds the proxy; held_level is
+/// then renewed. At most defaults::anchor_step_mm long. In the tick.
 Vec3 anchor_step_mm(HeldSurface& contact) noexcept;
 
-/// The level at the anchor: the value at which strengths are looked up there.
+/// The level at the anchor: strengths are looked up at this value there.
 double level_at_anchor(const HeldSurface& contact, const Vec3& step_mm) noexcept;
 
 }  // namespace palpate::modes

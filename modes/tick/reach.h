@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which slices of a scan a stylus can reach.
+/// The slices of a scan that a stylus can reach.
 
 #include "io/fields/field_options.h"
 #include "io/geometry.h"
@@ -8,12 +8,12 @@
 
 namespace palpate::modes {
 
-/// The slices that hold all fields within this distance from a device's origin along each of its axes; none
-/// (last < first) if no part of the scan is that near.
+/// The slices that hold all fields within this distance from a device's origin along each of its axes; none (last <
+/// first) if no part of the scan is in that box.
 io::SliceRange slices_within_reach(const io::Geometry& geometry, const Workspace& workspace, const Vec3& half_extent_m);
 
-/// Limits plan.slices to those that the proxy of a device of this reach can come to, and says so in the plan. The proxy
-/// is never farther from the probe than all modes together can hold it.
+/// Limits plan.slices to those that the proxy can reach with such a device, and lists the others in plan.left_out. The
+/// proxy is never farther from the probe than all modes together can hold it.
 void leave_out_slices(const io::Geometry& geometry, const Vec3& half_extent_m, Plan& plan);
 
 }  // namespace palpate::modes

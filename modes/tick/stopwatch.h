@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where the time of a tick goes, measured cheaply enough to measure every tick. No force depends on it, so that a
-/// replay gives the same forces.
+/// The time that each part of a tick takes, measured so cheaply that every tick is measured. No force depends on it, so
+/// that a replay gives the same forces.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@
 
 namespace palpate::modes {
 
-/// A count that grows evenly with time, in a unit of its own: counts_per_ns() tells.
+/// A count that grows evenly with time, in a unit of its own: see counts_per_ns().
 inline std::uint64_t clock_count() noexcept {
 #if defined(__x86_64__)
   // The processor's time stamp: a quarter of the cost of std::chrono's clocks, which would be a tenth of a tick.
@@ -24,7 +24,7 @@ inline std::uint64_t clock_count() noexcept {
 /// Measured against the system's clock by the first call, which takes some milliseconds: call it before the first tick.
 double counts_per_ns();
 
-/// Counts that each part of a step took, all sub-steps together.
+/// Counts for each part of a step, summed over its sub-steps.
 struct StepTimes {
   std::uint64_t map = 0;     ///< between the device's frame and the patient
   std::uint64_t sample = 0;  ///< of the fields

@@ -16,8 +16,8 @@ inline Axis axis_of(DirectionField field) {
   return field == DirectionField::gradient ? Axis::gradient : Axis::vector;
 }
 
-/// A vector of patient space as a unit vector in the device's frame; nothing where it is zero (or so small that it has
-/// no direction): a homogeneous region has no primitive, not one of zero direction. In the tick.
+/// A vector of patient space as a unit vector in the device's frame; nothing if it is zero or too small to have a
+/// direction. So a homogeneous region has no primitive instead of one with zero direction. In the tick.
 inline std::optional<Vec3> unit_in_device(const Vec3& patient, const Workspace& workspace) noexcept {
   const double length = glm::length(patient);
   if (!(length > 1e-150)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A haptic mode: it turns the fields sampled at a place into primitives there. Each mode is one file
+/// A haptic mode: it turns the fields sampled at a place into primitives there. Each mode has one file
 /// (<name>_mode.cpp), and one name in modes/CMakeLists.txt.
 
 #include <array>
@@ -20,15 +20,15 @@ namespace palpate::modes {
 /// The direction of a mode's constraint. It decides which combinations the analytical solver can solve (plan.h).
 enum class Axis : std::uint8_t { none, gradient, vector, tube, own, structure };
 
-/// What a mode places.
+/// The primitives that a mode places.
 struct Footprint {
   solver::PrimitiveType primitive = solver::PrimitiveType::directed_force;
   Axis axis = Axis::none;
-  bool co_located = true;  ///< placed at the anchor with all the others; false: at a place of its own
-  int structure = -1;      ///< of an axis along a structure's gradient: which
+  bool co_located = true;  ///< placed at the anchor with all the others; false: at its own place
+  int structure = -1;      ///< for Axis::structure: which structure
 };
 
-/// Keys of a scene's mode, beside type, name, enabled and color, that a type of mode reads: a set of flags.
+/// Keys of a scene's mode that a type of mode reads, beside type, name, enabled and color: a set of flags.
 enum class Key : std::uint8_t {
   none = 0,
   strength = 1,
@@ -52,31 +52,32 @@ struct ModeType;
 /// A mode of a plan: checked, with its strength in the form for the tick.
 struct ActiveMode {
   const ModeType* type = nullptr;
-  std::size_t scene_index = 0;  ///< which of the scene's modes it is
+  std::size_t scene_index = 0;  ///< its index in the scene's modes
   bool co_located = true;       ///< placed at the anchor, and only inside the data
   bool holds = false;           ///< a surface: while it holds the proxy, the anchor keeps to the iso-surface
   Strength strength;
   Side side = Side::entering;
   DirectionField direction_of = DirectionField::vector;
-  int structure = -1;  ///< whose edge it is: index in Sample::distance; -1: the scan's own boundary
+  int structure =
+      -1;  ///< index in Sample::distance of the structure whose edge it follows; -1: the scan's own boundary
   double level_mm = 0;
   double margin_mm = 3;
-  double push_share = 0;  ///< the part of its strength that pushes by itself; the rest only resists (keep_out)
+  double push_share = 0;  ///< the part of its strength in the directed force; the rest only resists (keep_out)
   Shape shape = Shape::point;
   Vec3 position_mm{0};
   Vec3 direction{0, 0, 1};
 };
 
-/// Where a mode puts its primitives.
+/// The place at which a mode puts its primitives.
 struct Place {
   const io::Sample& sample;    ///< at the old proxy, patient space
   const Workspace& workspace;  ///< rotates directions into the device's frame
   Vec3 anchor_m{0};            ///< the place of all co-located primitives, device's frame
-  /// Where the planes of each structure's surface stand. All other primitives stand at the anchor.
+  /// The place of the planes of each structure's surface. All other primitives are at the anchor.
   std::span<const Vec3> structure_anchor_m;
 };
 
-/// The primitives of the tick, as they are placed: a list of fixed capacity.
+/// The primitives that modes place in a tick: a list of fixed capacity.
 class PrimitiveList {
  public:
   /// The most that one mode may place (surface on both sides).
@@ -85,11 +86,11 @@ class PrimitiveList {
   PrimitiveList(std::span<solver::Primitive> room, std::span<std::uint8_t> mode_of) noexcept
       : room_(room), mode_of_(mode_of) {}
   void set_mode(std::uint8_t mode) noexcept { mode_ = mode; }
-  /// Multiplies the strength of what is added from here on.
+  /// Multiplies the strength of primitives added from here on.
   void set_weight(double weight) noexcept { weight_ = weight; }
   /// A primitive without strength is not added. A mode must not add one without a direction.
   void add(const solver::Primitive& primitive) noexcept {
-    // The capacity is checked when a plan is made; this is the belt to those braces.
+    // make_plan() checks the capacity; this is a second check.
     const double strength = weight_ * primitive.strength;
     if (!(strength > 0) || size_ == room_.size()) {
       return;
@@ -113,12 +114,13 @@ class PrimitiveList {
 struct ModeType {
   std::string_view name;             ///< as in scenes
   std::string_view summary;          ///< one line for people: what it feels like
-  Key keys = Key::none;              ///< what it reads of a scene's mode
-  Datum strength_of = Datum::value;  ///< the datum of its strength where the scene names none
-  /// Whether a session may begin where it is felt: not so of friction, which is felt everywhere, nor of landmarks.
+  Key keys = Key::none;              ///< the keys of a scene's mode that it reads
+  Datum strength_of = Datum::value;  ///< the datum of its strength if the scene names none
+  /// Whether a session may begin at a place where it is felt. False for friction, which is felt everywhere, and
+  /// landmarks.
   bool finds_places = true;
-  double margin_side = 1;  ///< of Key::margin: 1: the margin lies outside the structure; -1: inside
-  /// Fields it samples beside those that its strength and gates read.
+  double margin_side = 1;  ///< for Key::margin: 1: the margin lies outside the structure; -1: inside
+  /// Fields that it samples beside those that its strength and gates read.
   io::FieldSet (*reads)(const Mode& mode) = nullptr;
   Footprint (*footprint)(const Mode& mode) = nullptr;
   /// Adds its primitives. Called in the tick: no allocation, lock, log or exception.
@@ -127,9 +129,9 @@ struct ModeType {
 
 /// All types of mode, by name.
 std::span<const ModeType* const> mode_types();
-/// Null where there is none of that name.
+/// Null if no type has that name.
 const ModeType* find_mode_type(std::string_view name);
-/// Whether the type of a scene's mode reads that key: of boundaries between tissues Key::tissues. False for no type.
+/// Whether the type of a scene's mode reads that key, such as Key::tissues for boundaries. False for an unknown type.
 bool reads_key(const Mode& mode, Key key);
 /// "follow, force, ...": for messages.
 std::string mode_type_names();

@@ -7,7 +7,7 @@
 
 namespace palpate::solver::internal {
 
-/// Rounds the proxy to doubles and adds what that costs to the bound.
+/// Rounds the proxy to doubles and adds the rounding to the bound.
 inline void write_answer(const Balance& balance, const Settled& settled, Solution& solution) {
   const auto rounded = [](double probe, const DoubleDouble& z) {
     const DoubleDouble sum = two_sum(probe, z.hi);

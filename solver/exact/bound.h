@@ -9,22 +9,22 @@
 
 namespace palpate::solver::internal {
 
-/// What a primitive contributes to the law at a point: an admissible force and its slack. Not initialized by default:
+/// A primitive's contribution to the law at a point: an admissible force and its slack. Not initialized by default:
 /// short arrays of these are kept on the stack.
 struct Contribution {
   Vec3 force;             ///< N
   double force_error;     ///< N: rounding of the force
   double slack;           ///< J
-  double backward_slack;  ///< J: what is left of it when the primitive may move by the rounding of its data
-  bool held;              ///< the force is one that only a point on the primitive exerts
+  double backward_slack;  ///< J: the slack that remains if the primitive may move by the rounding of its data
+  bool held;              ///< whether the force is one that only a point on the primitive exerts
 };
 
-/// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack).
-/// doubt: how far z may be from the point meant, m.
+/// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack). doubt:
+/// how far z may be from the exact point, m.
 Contribution share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0,
                       bool leniently = false);
 
-/// A flat that holds the proxy: of which primitives, and how far the exact one passes the point taken for it.
+/// A flat that holds the proxy: its primitives, and how far the exact flat may be from the point used for it.
 struct Flat {
   int count = 0;
   std::uint32_t chosen[3];
@@ -42,12 +42,12 @@ struct Bound {
   double slack = 0;           ///< J
 };
 
-/// The law at the exact point of the flat that z stands for. forces: as many as primitives. leniently: hard constraints
-/// count as met within hard_tolerance.
+/// The law at the exact point of the flat that z approximates. forces: one for each primitive. leniently: hard
+/// constraints count as met within hard_tolerance.
 Bound bound_at(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z, const Flat& flat,
                std::span<const Vec3> forces, bool leniently = false);
 
-/// The same at z itself, where no flat holds the proxy, from what share_of() says there of each primitive.
+/// The same at z itself, if no flat holds the proxy; `shares` are those of share_of() at z.
 Bound bound_of(std::span<const Contribution> shares, double stiffness, const FineVec3& z);
 
 }  // namespace palpate::solver::internal

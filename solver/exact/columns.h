@@ -1,6 +1,6 @@
 #pragma once
 
-/// Many primitives side by side, so that the compiler can look at several at once: what those do that are far enough
+/// Many primitives in columns, so that the compiler can process several at once: the effects of primitives far enough
 /// from z to need no double-double.
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct Columns {
   std::size_t planes = 0;                            ///< the first plane
   std::size_t attractors = 0;                        ///< the first line or point
   std::vector<double> x, y, z, x_low, y_low, z_low;  ///< offset, in double-double
-  std::vector<double> qx, qy, qz;                    ///< direction; zero of a point
+  std::vector<double> qx, qy, qz;                    ///< direction; zero for a point
   std::vector<double> strength;
   std::vector<double> size;  ///< size_of(offset)
 
@@ -28,7 +28,7 @@ struct Columns {
   std::size_t memory_bytes() const noexcept;
 };
 
-/// What primitives do at a point, as in Local.
+/// The sums of primitives' effects at a point, as in Local.
 struct Sums {
   Vec3 force{0};         ///< N
   Symmetric3 hessian{};  ///< N/m
@@ -36,8 +36,8 @@ struct Sums {
   double noise = 0;      ///< N
 };
 
-/// Adds what planes, lines and points do that are far enough from z, and writes their forces. Writes the indices of
-/// the others, and of what is locked, to `near`, and returns how many these are. coarseness: as in Walk; touch: m.
+/// Adds the effects of the planes, lines and points far enough from z, and writes their forces. Writes the indices of
+/// the others, and of the locked ones, to `near`, and returns their number. coarseness: as in Walk; touch: m.
 std::size_t add_far(const Columns& columns, const FineVec3& z, const ActiveSet& active, double coarseness, double touch,
                     Sums& sums, std::span<Vec3> forces, std::span<std::uint32_t> near);
 

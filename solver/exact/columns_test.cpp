@@ -47,7 +47,7 @@ struct Crowd {
   Seen look_at(const FineVec3& z, bool side_by_side) {
     std::ranges::fill(forces, Vec3{7});  // of what is met nothing is written
     walk.columns = side_by_side ? &columns : nullptr;
-    const Local local = look(walk, z, walk.active);
+    const Local local = evaluate(walk, z, walk.active);
     std::vector<std::uint32_t> all(met.begin(), met.begin() + static_cast<std::ptrdiff_t>(local.met));
     for (const std::uint32_t i : all) forces[i] = Vec3{0};
     return {local, forces, all};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Unevaluated sums of two doubles (T. J. Dekker 1971; D. E. Knuth, TAOCP 2, 4.2.2): about 31 significant digits, from
-/// error-free transformations, where a distance to a primitive is what is left of a cancellation.
+/// error-free transformations. For a distance to a primitive that is the small result of a cancellation.
 
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -25,7 +25,7 @@ inline DoubleDouble two_sum(double a, double b) {
   return {hi, (a - (hi - b_part)) + (b - b_part)};
 }
 
-/// The same where |a| >= |b|.
+/// The same if |a| >= |b|.
 inline DoubleDouble quick_two_sum(double a, double b) {
   const double hi = a + b;
   return {hi, b - (hi - a)};

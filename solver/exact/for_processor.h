@@ -1,8 +1,8 @@
 #pragma once
 
-/// PALPATE_SIDE_BY_SIDE before a function: compiled twice, and the one with 256-bit vectors is taken where the
-/// processor has them, with the same bits. io/for_processor.h has the like, which the solver does not know, and says
-/// why sanitizers are left out.
+/// PALPATE_SIDE_BY_SIDE before a function compiles it twice. The version with 256-bit vectors runs if the processor has
+/// them, and gives the same bits. io/for_processor.h has a similar macro, which the solver cannot include, and says why
+/// sanitizers are left out.
 
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define PALPATE_SIDE_BY_SIDE __attribute__((target_clones("avx2", "default")))

@@ -77,7 +77,7 @@ void look_at_many(const Walk& walk, const FineVec3& z, const ActiveSet& active, 
 
 }  // namespace
 
-Local look(const Walk& walk, const FineVec3& z, const ActiveSet& active) {
+Local evaluate(const Walk& walk, const FineVec3& z, const ActiveSet& active) {
   Local local;
   local.hessian = Symmetric3::identity(walk.stiffness);
   local.gradient = z.hi() * walk.stiffness - walk.pull;

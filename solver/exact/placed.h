@@ -1,7 +1,7 @@
 #pragma once
 
-/// A primitive as the solvers see it: relative to the probe. "Direction" is the direction of the doubles given, taken
-/// as exact, so a direction of length 1 + 1e-15 means what it says.
+/// A primitive in coordinates relative to the probe, as the solvers read it. Directions are taken as exact, so one of
+/// length 1 + 1e-15 is not rounded.
 
 #include <cmath>
 #include <cstddef>
@@ -16,18 +16,18 @@ namespace palpate::solver::internal {
 /// Not initialized by default: solvers keep short arrays of these on the stack.
 struct Placed {
   PrimitiveType type;
-  double strength;       ///< N
-  FineVec3 offset;       ///< position - probe, m, exact; not set of a directed force
-  Vec3 given_direction;  ///< of length 0.5 to 3.5: the one given times a power of two; not set of a point, as what
-                         ///< follows
-  Vec3 direction;        ///< of length 1, except for rounding
-  double given_length;   ///< of given_direction, except for rounding
+  double strength;  ///< N
+  FineVec3 offset;  ///< position - probe, m, exact; not set for a directed force
+  /// Of length 0.5 to 3.5: the direction given times a power of two. This and the next two are not set for a point.
+  Vec3 given_direction;
+  Vec3 direction;       ///< of length 1, except for rounding
+  double given_length;  ///< of given_direction, except for rounding
 };
 
-/// Written where it stands: a copy of what was written just now waits for it.
+/// Writes into `placed`: a value that is returned and then copied costs time.
 void place(const Primitive& primitive, const Vec3& probe, Placed& placed);
 
-/// The primitives of a balance: placed once into an array by who has one, else each time that they are looked at.
+/// The primitives of a balance: placed in advance into an array, or else each time that one is read.
 class PlacedPrimitives {
  public:
   PlacedPrimitives(std::span<const Primitive> primitives, const Vec3& probe) : primitives_(primitives), probe_(probe) {}
@@ -63,12 +63,12 @@ inline double size_of(const FineVec3& v) {
 
 bool same(const FineVec3& a, const FineVec3& b);
 
-/// Of a difference and its scalar product in double, with a margin.
+/// The relative rounding of a difference and its scalar product in double, with a margin.
 inline constexpr double rough_rounding = 0x1p-50;
 
-// The following are in double-double where a cancellation asks for it.
+// In double-double if cancellation requires it.
 
-/// From z (relative to the probe, m) to the nearest point of a line or point, and how wrong it may be.
+/// The vector from z (relative to the probe, m) to the nearest point of a line or point, and its largest error.
 struct Miss {
   FineVec3 vector;
   double length = 0;
@@ -87,13 +87,13 @@ inline Miss miss_of(const Placed& line_or_point, const FineVec3& z) {
   return fine_miss_of(line_or_point, z);
 }
 
-/// Of quick_miss_of(), relative to the distance from z to the primitive's position; and the part of that distance that
-/// a miss must be for that to be good enough: the rest is taken in double-double.
+/// The rounding of quick_miss_of(), relative to the distance from z to the primitive's position. A miss shorter than
+/// quick_part of that distance is computed in double-double.
 inline constexpr double quick_rounding = 0x1p-49;
 inline constexpr double quick_part = 0.25;
 
-/// The same with an error that is small beside the distance from z to the primitive's position: a difference of two
-/// double-doubles rounded to a double is nearly exact. Takes a quarter of the time where the probe is not far away.
+/// The same with an error that is small relative to the distance from z to the primitive's position: a difference of
+/// two double-doubles rounded to a double is nearly exact. Takes a quarter of the time if the probe is not far away.
 inline Miss quick_miss_of(const Placed& line_or_point, const FineVec3& z) {
   const FineVec3& o = line_or_point.offset;
   const Vec3 e{(o.x.hi - z.x.hi) + (o.x.lo - z.x.lo), (o.y.hi - z.y.hi) + (o.y.lo - z.y.lo),

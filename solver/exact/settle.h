@@ -1,6 +1,6 @@
 #pragma once
 
-/// From a point near the flat that holds the proxy to that flat, and the bound of the error there.
+/// Moves a point near the flat that holds the proxy onto that flat, and bounds the error there.
 
 #include <span>
 
@@ -15,11 +15,11 @@ struct Settled {
   Bound bound;
 };
 
-/// At the flat that is locked.
+/// On the flat of the locked primitives.
 Settled settle_on(const ActiveSet& active, std::span<const Placed> placed, double stiffness, const FineVec3& z,
                   std::span<const Vec3> forces);
 
-/// Settles z onto what its forces say holds it there, if that is near.
+/// Settles z onto the flat that its forces indicate, if that flat is near.
 Settled settle_and_bound(const PlacedPrimitives& primitives, double stiffness, const FineVec3& z,
                          std::span<const Vec3> forces);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which forces primitives that meet at one point exert there: a point of the sum of their force bodies.
+/// The forces of primitives that meet at one point: a point of the sum of their force bodies.
 
 #include <cstdint>
 #include <span>
@@ -9,22 +9,22 @@
 
 namespace palpate::solver::internal {
 
-/// Where in its force body the force of a primitive is.
+/// Where a primitive's force lies in its force body.
 enum class ForceRegion : std::uint8_t {
-  idle,  ///< nothing: a plane before which the proxy would be
+  idle,  ///< zero: a plane that the proxy would leave at its front
   held,  ///< strictly inside
-  full   ///< its whole strength
+  full   ///< at its full strength
 };
 
-/// The point of the force body nearest to `force`; hold tells where it is.
+/// The point of the force body nearest to `force`; `hold` receives where it lies.
 Vec3 project(const Placed& primitive, const Vec3& force, ForceRegion& hold);
 
-/// Forces of the primitives whose indices are given, each inside its force body, that together come as near to `wanted`
-/// as they can. Returns what is missing, N: nothing, where that is no more than `tolerance` and rounding.
+/// Forces of the primitives with these indices, each inside its force body, whose sum is as near to `wanted` as
+/// possible. Returns the missing force, N: zero if it is no more than `tolerance` and rounding.
 ///
-/// The least change of the forces from zero has the form F_i = projection of p onto body i, with one p for all; p is
-/// found by a semismooth Newton method (L. Qi, J. Sun, 1993), and the same once or twice more from the forces found,
-/// for p is held back a little to have it bounded (the proximal point method, R. T. Rockafellar, 1976).
+/// The least change of the forces from zero has the form F_i = projection of p onto body i, with one p for all. p is
+/// found by a semismooth Newton method (L. Qi, J. Sun, 1993). A small term keeps p bounded, so the search is repeated
+/// once or twice from the forces found (the proximal point method, R. T. Rockafellar, 1976).
 Vec3 share_out(std::span<const Placed> primitives, std::span<const std::uint32_t> which, const Vec3& wanted,
                double tolerance, std::span<Vec3> forces, std::span<ForceRegion> hold);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The primitives of a balance sorted by kind, so that passes over many of them do not have to guess what comes next.
+/// The primitives of a balance sorted by kind, so that the processor predicts the branches of a pass over many of them.
 
 #include <cstdint>
 #include <span>
@@ -19,7 +19,7 @@ class Sorted {
   /// The same balance and forces, sorted. Valid until the next call.
   Balance take(const Balance& balance, std::span<const Vec3> forces);
   std::span<Vec3> forces() { return std::span(forces_).first(count_); }
-  /// Puts the sorted forces and what a solution says of a primitive back into the order of the balance.
+  /// Puts the sorted forces and the solution's index of a primitive back into the order of the balance.
   void give_back(std::span<Vec3> forces, Solution& solution) const;
 
  private:

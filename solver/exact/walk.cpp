@@ -38,7 +38,7 @@ class Walker {
   int run();
 
  private:
-  Local look(const FineVec3& z, const ActiveSet& active);
+  Local evaluate(const FineVec3& z, const ActiveSet& active);
   bool is_arrived(FineVec3& way);
   bool release(FineVec3& way);
   bool part(FineVec3& way);
@@ -57,15 +57,15 @@ class Walker {
   std::uint32_t released_ = none;  // lets go of the proxy at the start of the way: not to be locked along it
 };
 
-Local Walker::look(const FineVec3& z, const ActiveSet& active) {
+Local Walker::evaluate(const FineVec3& z, const ActiveSet& active) {
   ++looks_;
-  return internal::look(walk_, z, active);
+  return internal::evaluate(walk_, z, active);
 }
 
 int Walker::run() {
   walk_.arrived = false;
   settle(walk_.active, walk_.primitives, walk_.z);
-  here_ = look(walk_.z, walk_.active);
+  here_ = evaluate(walk_.z, walk_.active);
   while (true) {
     FineVec3 way{};
     released_ = none;
@@ -195,7 +195,7 @@ void Walker::advance(const FineVec3& way) {
   for (int tries = 0; tries < 60; ++tries) {
     there = walk_.z + way * t;
     settle(walk_.active, walk_.primitives, there);
-    local = look(there, walk_.active);
+    local = evaluate(there, walk_.active);
     const double slope_here = slope(walk_, local, walk_.active, way);
     double at = 0;
     const bool crossing = slope_here > 0 && crossed_plane(way, {bracket.low, t}, at) != none;
@@ -222,7 +222,7 @@ void Walker::advance(const FineVec3& way) {
       t = bracket.low > 0 ? bracket.low : bracket.high;
       there = walk_.z + way * t;
       settle(walk_.active, walk_.primitives, there);
-      local = look(there, walk_.active);
+      local = evaluate(there, walk_.active);
       break;
     }
   }
@@ -263,7 +263,7 @@ bool Walker::lock_plane(const FineVec3& way, Bracket& bracket, double middle) {
   const bool independent = lock(active, walk_.primitives, plane);
   FineVec3 there = walk_.z + way * at;
   settle(active, walk_.primitives, there);
-  const Local local = look(there, active);
+  const Local local = evaluate(there, active);
   const double rate = rate_of(primitive, way);
   const double others = slope(walk_, local, active, way) - (independent ? 0 : primitive.strength * std::max(0.0, rate));
   const double before = others + primitive.strength * std::min(0.0, rate);
@@ -305,7 +305,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
       continue;
     }
     const FineVec3 there = walk_.z + way * nearest;
-    const Local local = look(there, walk_.active);
+    const Local local = evaluate(there, walk_.active);
     const double slope_there = slope(walk_, local, walk_.active, way);
     if (walk_.primitives.size() <= 16 || std::abs(slope_there) <= primitive.strength * speed) {
       ActiveSet active;
@@ -332,7 +332,7 @@ bool Walker::lock_attractor(const FineVec3& way, Bracket& bracket) {
 bool Walker::lock_at(const ActiveSet& active, const FineVec3& near) {
   FineVec3 there = near;
   settle(active, walk_.primitives, there);
-  const Local local = look(there, active);
+  const Local local = evaluate(there, active);
   if (!(slope(walk_, local, {}, walk_.z - there) > 0)) {
     return false;
   }

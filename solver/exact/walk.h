@@ -1,13 +1,13 @@
 #pragma once
 
-/// The way down the energy to its minimum, from flat to flat: see exact.h.
+/// The walk down the energy to its minimum, from flat to flat: see exact.h.
 
 #include "solver/exact/local.h"
 
 namespace palpate::solver::internal {
 
-/// Walks from walk.z to the minimum, looking at most `cap` times; returns how often it looked. Leaves there z, what is
-/// locked, and the forces.
+/// Walks from walk.z to the minimum with at most `cap` evaluations; returns their number. Leaves z, the locked
+/// primitives and the forces in `walk`.
 int descend(Walk& walk, int cap);
 
 }  // namespace palpate::solver::internal

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Seeded balances of every kind that the solvers promise to solve: shared by tests, benchmarks and studies. The same
-/// family, seed and count give the same balance on every platform.
+/// Seeded balances of every kind that the solvers promise to solve, for tests, benchmarks and studies. The same family,
+/// seed and count give the same balance on every platform.
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Problem {
   Balance balance() const { return {stiffness, probe, previous_proxy, primitives}; }
 };
 
-/// count: of primitives; 0 for the family's own choice.
+/// count: the number of primitives; 0: the family's default.
 Problem make_problem(Family family, std::uint64_t seed, std::size_t count = 0);
 
 /// Uniform and normal numbers that are the same on every platform (S. Vigna's splitmix64).

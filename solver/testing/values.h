@@ -1,6 +1,6 @@
 #pragma once
 
-/// Values from which tests make up their balances.
+/// Values from which tests build their balances.
 
 #include "solver/primitive.h"
 #include "solver/text/testing/not_finite.h"

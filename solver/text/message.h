@@ -1,7 +1,7 @@
 #pragma once
 
-/// What Palpate says to a user. Every message stands in a table, the messages.h of its module, with why it comes and
-/// what to do. Only a table can make a Text, and only a Text can make a refusal. A message that is in no table does not
+/// The messages to a user. Every message stands in a table, the messages.h of its module, with its reason and what to
+/// do. Only a table can make a Text, and only a Text can make a refusal. A message that is in no table does not
 /// compile.
 
 #include <initializer_list>
@@ -14,17 +14,17 @@ namespace palpate {
 
 struct Message {
   std::string_view id;
-  std::string_view text;  ///< {} stands for what differs
+  std::string_view text;  ///< {} stands for a value
 };
 
-/// Messages that come for the same reason. A row of a table has room for 12.
+/// Messages with the same reason. A row of a table has room for 12.
 struct MessageRow {
-  std::string_view why;         ///< empty: the message says it
-  std::string_view what_to_do;  ///< empty: the message says it
+  std::string_view why;         ///< empty: the message itself says why
+  std::string_view what_to_do;  ///< empty: the message itself says what to do
   Message messages[12];
 };
 
-/// A message whose places are filled. Empty: nothing is said.
+/// A message with its values filled in. Empty: no message.
 class Text : public std::string {
  public:
   Text() = default;
@@ -37,7 +37,7 @@ class Text : public std::string {
   friend class Saying;
 };
 
-/// An error that says a Text.
+/// An error with a Text.
 template <typename Error>
 class Saying : public Error {
  public:
@@ -45,7 +45,7 @@ class Saying : public Error {
   Text text() const { return Text(this->what()); }
 };
 using Refusal = Saying<std::runtime_error>;          ///< of a file, a series, a device
-using InvalidInput = Saying<std::invalid_argument>;  ///< of a value that cannot be
+using InvalidInput = Saying<std::invalid_argument>;  ///< of an impossible value
 
 /// "place: text", where the place is a line, a key or an entry of a list.
 inline Text at_place(std::string_view place, const Text& text, std::string_view between = ": ") {
@@ -62,8 +62,8 @@ inline Text fill_message(std::string_view message, std::initializer_list<std::st
   return Text(text.append(message));
 }
 
-/// The message of an id, looked up in a module's tables by the compiler. An unknown id does not compile, and neither
-/// does a wrong number of values.
+/// The message of an id, found in a module's tables by the compiler. An unknown id or a wrong number of values does not
+/// compile.
 template <std::size_t places, const auto&... tables>
 class ChosenMessage {
  public:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Text for a terminal or a script. What comes out of a file (its name, a description, a patient's name) may hold
-/// control characters, which a terminal would obey, and bytes that are no UTF-8, at which a script would stop.
+/// Text for a terminal or a script. Text from a file (its name, a description, a patient's name) may hold control
+/// characters, which a terminal would obey, and bytes that are not UTF-8, at which a script would stop.
 
 #include <cstddef>
 #include <string>
@@ -11,13 +11,15 @@ namespace palpate {
 
 namespace internal {
 
-/// Bytes of the character that a text begins with; 0 where it begins with none of UTF-8 (RFC 3629, 4).
+/// The length in bytes of the text's first character; 0 if the text does not begin with a UTF-8 character (RFC 3629,
+/// 4).
 inline std::size_t utf8_character(std::string_view text) {
   const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
   const unsigned first = byte(0);
   if (first < 0x80) return text.empty() ? 0 : 1;
   const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
-  // Of some the second byte has less room: the others are shorter ways to write it, surrogates, or beyond U+10FFFF.
+  // After some first bytes the second has a smaller range: the rest would be overlong forms, surrogates, or beyond
+  // U+10FFFF.
   const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
   const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
   if (length == 0 || byte(1) < least || byte(1) > most) return 0;
@@ -27,8 +29,8 @@ inline std::size_t utf8_character(std::string_view text) {
   return length;
 }
 
-/// `escape` is what stands before the two hexadecimal digits of a byte that is no UTF-8, or of a control character:
-/// those of ASCII but for the end of a line, of DEL, and of C1 (U+0080 to U+009F) as UTF-8 writes them.
+/// `escape` precedes the two hexadecimal digits of a byte that is not UTF-8 or of a control character: of ASCII (except
+/// the end of a line), DEL, and C1 (U+0080 to U+009F) as UTF-8 writes them.
 inline std::string without_control(std::string_view text, std::string_view escape, bool ascii) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string shown;
@@ -51,12 +53,12 @@ inline std::string without_control(std::string_view text, std::string_view escap
 
 }  // namespace internal
 
-/// With control characters, and bytes that are no UTF-8, in the form \x1b.
+/// Writes control characters, and bytes that are not UTF-8, in the form \x1b.
 inline std::string printable(std::string_view text) {
   return internal::without_control(text, "\\x", true);
 }
 
-/// The same of JSON, which writes those of ASCII by itself, in its own form: \u009b.
+/// The same for JSON in JSON's own form, \u009b. The JSON library escapes the control characters of ASCII by itself.
 inline std::string printable_json(std::string_view json) {
   return internal::without_control(json, "\\u00", false);
 }

@@ -8,7 +8,7 @@ namespace palpate::solver::internal {
 
 __extension__ typedef __float128 Quad;  // NOLINT(modernize-use-using)
 
-/// Exact where the two parts span no more than 113 digits.
+/// Exact if the two parts span no more than 113 digits.
 inline Quad quad(const DoubleDouble& a) {
   return Quad(a.hi) + Quad(a.lo);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How busy a machine is: limits of time are those of one that has nothing else to do, and longer by as much.
+/// How busy the machine is. Tests' time limits are for an idle machine, and grow in proportion.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,11 +10,11 @@
 
 namespace palpate {
 
-/// Seconds that the main thread wanted a processor and had none, since it began. More urgent programs beside it make it
-/// wait for longer than their number tells. Uses what a signal handler may.
+/// Seconds that the main thread has waited for a processor since it began. It waits longer than the number of threads
+/// suggests if others have a higher priority. Uses only what a signal handler may.
 inline double waited_for_a_processor() {
   char text[64] = "";
-  const int file = open("/proc/self/schedstat", O_RDONLY | O_CLOEXEC);  // ns that it ran, ns that it waited, turns
+  const int file = open("/proc/self/schedstat", O_RDONLY | O_CLOEXEC);  // ns of running, ns of waiting, turns
   if (file < 0) return 0;
   const ssize_t size = read(file, text, sizeof text - 1);
   close(file);
@@ -23,7 +23,7 @@ inline double waited_for_a_processor() {
   return 1e-9 * std::strtod(waited, nullptr);
 }
 
-/// How many threads want to run for each processor, at least 1. Uses what a signal handler may.
+/// The number of runnable threads for each processor, at least 1. Uses only what a signal handler may.
 inline double crowd() {
   char text[16] = "";
   const int file = open("/proc/loadavg", O_RDONLY | O_CLOEXEC);

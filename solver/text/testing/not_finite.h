@@ -1,6 +1,6 @@
 #pragma once
 
-/// The doubles that are no finite numbers, for tests.
+/// The doubles that are not finite, for tests.
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Builds with sanitizers are ten to thirty times slower. Tests that repeat a thing for the sake of its numbers repeat
-/// it less often there: the numbers are those of every other build, and a slip of memory shows at the first time.
+/// Builds with sanitizers are ten to thirty times slower. Tests that repeat a thing for its statistics repeat it less
+/// often there: other builds check the numbers, and a memory error shows at the first repetition.
 
 namespace palpate {
 
@@ -17,7 +17,7 @@ inline constexpr bool is_sanitized = false;
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// How often: `many` times, or under sanitizers `few`.
+/// The number of repetitions: `many`, or under sanitizers `few`.
 constexpr int repeats(int many, int few) {
   return is_sanitized ? few : many;
 }

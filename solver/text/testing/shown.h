@@ -1,7 +1,7 @@
 #pragma once
 
-/// Whether a module's messages are shown by tests: each is provoked, or quoted in full by the test that meets it, or
-/// stands in a list of those that cannot be had, with the reason.
+/// Checks that tests show a module's messages: each is provoked, or quoted in full by the test that meets it, or stands
+/// in a list of those that cannot be provoked, with the reason.
 
 #include <functional>
 #include <span>
@@ -18,9 +18,9 @@ struct Provoked {
   std::string said;
 };
 
-/// What the exception says that comes of it.
+/// The message of the exception that `run` throws.
 std::string said_when(const std::function<void()>& run);
-/// All that a command of the shell says.
+/// All output of a shell command.
 std::string output_of(const std::string& command);
 
 struct NotShown {
@@ -28,11 +28,11 @@ struct NotShown {
   std::string_view why;
 };
 
-/// Whether the fixed pieces of the message stand in the text, in their order.
+/// Whether the fixed pieces of the message occur in the text, in their order.
 bool fits(std::string_view message, std::string_view text);
 
-/// A failure for each message of these tables that no test shows, for each that was provoked and was not said, and for
-/// each that cannot be had and was. `sources` is the root of the tree.
+/// Fails for each message of these tables that no test shows, for each that should have been provoked and did not
+/// appear, and for each that was listed as impossible and did appear. `sources` is the root of the tree.
 void expect_all_shown(const std::vector<std::span<const MessageRow>>& tables, std::span<const Provoked> provoked,
                       std::span<const NotShown> not_shown, const char* sources);
 
