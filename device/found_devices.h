@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is plugged in.
+/// The devices that are plugged in.
 
 #include <cstddef>
 #include <string>
@@ -12,13 +12,13 @@ namespace palpate::device {
 
 struct FoundDevice {
   std::string kind;         ///< DeviceType::kind
-  std::string name;         ///< as it calls itself
+  std::string name;         ///< as the device reports it
   std::string address;      ///< for its settings' `address`: "bus:device", a hidraw path, a serial number or an id
   bool accessible = false;  ///< whether this user may open it
   std::string note;         ///< what to type if permission is denied, or that it may be another device
 };
 
-/// Devices of all kinds, those that cannot be opened included.
+/// Devices of all kinds, also those that cannot be opened.
 std::vector<FoundDevice> find_devices();
 
 /// What to throw if several devices match and one is needed.

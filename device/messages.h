@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of styluses, and of the threads that serve them.
+/// The messages about styluses and about the threads that serve them.
 
 #include "solver/text/message.h"
 
@@ -231,7 +231,7 @@ inline constexpr MessageRow styluses[] = {
 
 namespace palpate::device {
 
-/// The message of this id, with these values in its places.
+/// The message of this id, with these values in place of its {}.
 template <typename... Values>
 Text say(std::type_identity_t<ChosenMessage<sizeof...(Values), messages::styluses>> message, const Values&... values) {
   return message.filled(values...);

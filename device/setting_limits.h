@@ -1,6 +1,6 @@
 #pragma once
 
-/// The force and the stiffness that settings may ask for: one check for every kind of device with motors.
+/// The largest force and stiffness in settings: one check for every kind of device with motors.
 
 #include <cstdio>
 #include <string>
@@ -18,7 +18,7 @@ struct SettingLimits {
   bool tells_stiffness = false;  ///< the same for a stiffness limit of 0
 };
 
-/// What is wrong with the limits of these settings; empty: nothing.
+/// The wrong limit in these settings; empty if they are right.
 template <typename Settings>
 Text wrong_limit(const Settings& settings, const SettingLimits& most) {
   const auto lies_within = [](double value, double highest, bool may_be_zero) {

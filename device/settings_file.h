@@ -22,7 +22,7 @@ class SettingsReader {
   explicit SettingsReader(nlohmann::json json) : left_(std::move(json)) {
     if (!left_.is_object()) throw Refusal(say("not-a-json-object"));
   }
-  /// Takes the value of a key out of what is left to be read; without the key the value stays.
+  /// Reads a key's value and marks it as read; without the key the value does not change.
   template <typename T>
   void take(const char* key, T& value) {
     const auto found = left_.find(key);
@@ -34,7 +34,7 @@ class SettingsReader {
     }
     left_.erase(found);
   }
-  /// Throws std::runtime_error naming a key that was not taken.
+  /// Throws std::runtime_error naming a key that was not read.
   void finish() const {
     if (!left_.empty()) throw Refusal(say("not-a-setting", left_.begin().key()));
   }
@@ -53,7 +53,7 @@ inline void take_signs(SettingsReader& reader, const char* key, Vec3& signs) {
   signs = {values[0], values[1], values[2]};
 }
 
-/// What the settings of every kind with motors have. Throws std::runtime_error naming a limit beyond its ceiling.
+/// The settings that all kinds with motors have. Throws std::runtime_error naming a limit beyond its ceiling.
 template <typename Settings>
 void take_common(SettingsReader& reader, Settings& settings, const SettingLimits& most) {
   reader.take("address", settings.address);
@@ -81,8 +81,8 @@ auto read_settings_file(const std::string& device, const std::string& file, cons
   }
 }
 
-/// The stylus that a user chose: from the settings file if there is one, else from `settings`; then with the address
-/// and the firmware that were chosen beside it.
+/// The stylus that a user chose: from the settings file if there is one, else from `settings`; then with the chosen
+/// address and firmware.
 template <typename Settings>
 std::shared_ptr<Stylus> make_with_settings(const DeviceChoice& choice, Settings (*read)(const std::string& file),
                                            std::unique_ptr<Stylus> (*make)(const Settings& settings),

@@ -25,8 +25,8 @@ struct Specification {
   double continuous_force = 0;     ///< N, sustained
   double stiffness_limit = 0;      ///< N/m: a stiffer wall may ring
   double rate = 1000;              ///< Hz
-  std::string watchdog;            ///< what of this device takes the force away; empty: DeviceType::watchdog
-  std::string guardian;            ///< what its guardian can do for it; empty: there is none
+  std::string watchdog;            ///< the part of this device that takes the force away; empty: DeviceType::watchdog
+  std::string guardian;            ///< its guardian's reach, in words; empty: there is none
 };
 
 enum class State : std::uint8_t { disconnected, idle, homing, ramping, active, fault };
@@ -37,7 +37,7 @@ struct Reading {
   Vec3 position{0};  ///< m
   std::uint32_t buttons = 0;
   bool fresh = false;                  ///< whether the position is new since the previous read
-  glm::dquat orientation{1, 0, 0, 0};  ///< of the stylus, where the device senses it
+  glm::dquat orientation{1, 0, 0, 0};  ///< of the stylus, if the device senses it
 };
 
 class Stylus {
@@ -57,8 +57,8 @@ class Stylus {
   /// N. Only the safety filter's output may be written.
   virtual void write_force(const Vec3& force) noexcept = 0;
   virtual State state() const noexcept = 0;
-  /// While state() is State::fault: what happened and what to do, in a sentence. Empty where it is not known. Not for
-  /// the tick.
+  /// While state() is State::fault: what happened and what to do, in a sentence. Empty if it is not known. Not for the
+  /// tick.
   virtual Text trouble() const { return {}; }
 };
 

@@ -16,16 +16,16 @@ namespace palpate::device {
 struct AxisPush {
   int axis;
   double force;      ///< N, along the axis
-  double moved = 0;  ///< m along the axis, by the pose; known after the push
+  double moved = 0;  ///< m along the axis, by the pose; set after the push
 };
 
-/// What the hand felt of a push.
+/// The user's answer about a push.
 enum class Felt { as_said, opposite, nothing, stop };
 
 struct AxisHand {
   /// Before each push; false ends the check.
   std::function<bool(const AxisPush&)> ready;
-  /// After it.
+  /// After each push.
   std::function<Felt(const AxisPush&)> felt;
   /// Once, while the stylus waits to be homed.
   std::function<void()> home;
@@ -33,9 +33,9 @@ struct AxisHand {
 
 struct AxisCheckSettings {
   double force = 0.2;         ///< N
-  double push_time = 1.2;     ///< s, of which the last half has the whole force
+  double push_time = 1.2;     ///< s; the second half has the whole force
   double smallest = 0.3e-3;   ///< m: a smaller motion counts as none
-  double homing_time = 60.0;  ///< s that the user has
+  double homing_time = 60.0;  ///< s that the user has for homing
 };
 
 struct AxisCheck {
@@ -43,9 +43,9 @@ struct AxisCheck {
   std::array<double, 3> moved{};  ///< m, by the pose
   AxisSigns signs;                ///< to be multiplied with those of the stylus
   bool ended = false;             ///< the user ended it, or the stylus was not homed
-  Fault fault = Fault::none;      ///< that the filter latched; the check ends there
+  Fault fault = Fault::none;      ///< the fault that the filter latched; it ends the check
 
-  /// Whether every push was felt in the direction that was announced.
+  /// Whether every push was felt in the announced direction.
   bool is_right() const;
 };
 
@@ -54,7 +54,7 @@ struct AxisCheck {
 AxisCheck check_axes(Stylus& stylus, const AxisHand& hand, const std::function<double()>& next,
                      const AxisCheckSettings& settings = {});
 
-/// What the hand must have felt, by the pose: for a stylus whose positions are known to be right.
+/// The answer that the pose implies, for a stylus whose positions have the right sign.
 Felt felt_by_pose(const AxisPush& push, double smallest = AxisCheckSettings{}.smallest);
 
 /// "to the right", "up", "towards you".

@@ -19,15 +19,15 @@ namespace palpate::device {
 constexpr double falcon_force = 8;
 
 struct FalconSettings {
-  std::string address;        ///< "bus:device" as FoundDevice::address; empty: the only Falcon there is
-  std::string firmware_file;  ///< uploaded where the Falcon has none yet
+  std::string address;        ///< "bus:device" as FoundDevice::address; empty: the only Falcon
+  std::string firmware_file;  ///< uploaded if the Falcon has none yet
   FalconGeometry geometry;
-  /// Motor command per N m: libnifalcon's number, never calibrated. With it the largest command means 16.6 N on z, but
-  /// the vendor says 9 N; so a force may come out half as strong as asked.
+  /// Motor command per N m: libnifalcon's number, never calibrated. With it the largest command is 16.6 N on z, but the
+  /// vendor says 9 N; so a force may be half as strong as commanded.
   double motor_gain = 10000;
   double maximum_force = falcon_force;  ///< N
   double stiffness_limit = 1000;        ///< N/m
-  bool guarded = true;                  ///< start a guardian process where palpate-guardian is found
+  bool guarded = true;                  ///< start a guardian process if palpate-guardian is found
   AxisSigns signs;
 };
 

@@ -28,7 +28,7 @@ std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkS
 void connect_falcon(FalconLink& link, const std::string& firmware_file);
 
 /// For the guardian: sends zeros until two of them were answered. A chip that was plugged in again has forgotten its
-/// speed, which is set first. False where no answer comes.
+/// speed, which is set first. False if no answer comes.
 bool zero_falcon(FalconLink& link) noexcept;
 
 class FalconProtocol final : public Protocol {

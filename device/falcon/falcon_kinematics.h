@@ -29,19 +29,19 @@ struct FalconGeometry {
   double angle_at_zero = 0.6108652381980153;  ///< 35 deg: a leg's angle at encoder count 0
   /// 360 deg in 320 slots x 4 edges of the motor's wheel, geared by a 14.25 mm shaft on a 110 mm drum.
   double angle_per_count = 2 * 3.141592653589793 / 1280 * 14.25 / 110;
-  double center = 0.120;  ///< m along z: the middle of what the grip reaches, origin of the device's frame
-  double reach = 0.090;   ///< m from the center to the corner of the vendor's 10 cm cube, where the stops are
+  double center = 0.120;  ///< m along z: the middle of the grip's reach, origin of the device's frame
+  double reach = 0.090;   ///< m from the center to the corner of the vendor's 10 cm cube, at the stops
 };
 
-/// The joint angles of a position (m, robot's frame); nothing where the arms cannot reach.
+/// The joint angles of a position (m, robot's frame); nothing if it is out of reach.
 std::optional<Vec3> falcon_angles(const FalconGeometry& geometry, const Vec3& position) noexcept;
 
-/// d angle_leg / d position, row by row: m[column][row] as everywhere in GLM. Nothing where the arms cannot reach, or
-/// where they are stretched out and the Jacobian is singular.
+/// d angle_leg / d position, row by row: m[column][row] as everywhere in GLM. Nothing if the position is out of reach,
+/// or if the arms are stretched out and the Jacobian is singular.
 std::optional<glm::dmat3> falcon_jacobian(const FalconGeometry& geometry, const Vec3& position) noexcept;
 
 /// The position of joint angles by Newton's method from a nearby position, and if that fails from the middle, to 1e-11
-/// rad. Nothing where there is none within the reach, or none on this side of the singularity at its edge.
+/// rad. Nothing if there is none within the reach, or none on this side of the singularity at its edge.
 std::optional<Vec3> falcon_position(const FalconGeometry& geometry, const Vec3& angles, const Vec3& start) noexcept;
 
 /// N m on the three arms for a force (N) on the grip at a position: J^-T F.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The Novint Falcon's packets, after the BSD-licensed libnifalcon: sixteen ASCII bytes each way, exactly one reply to
-/// a command. No checksum, so every byte is checked for what it can be.
+/// a command. They have no checksum, so every byte is checked against the values that it may have.
 
 #include <array>
 #include <cstddef>
@@ -14,13 +14,13 @@
 namespace palpate::device {
 
 constexpr std::size_t falcon_packet_size = 16;
-constexpr int falcon_motor_limit = 4096;  ///< the largest command that the firmware is documented to take
+constexpr int falcon_motor_limit = 4096;  ///< the largest command that the firmware's documents allow
 
 enum FalconLight : std::uint8_t { falcon_green = 0x02, falcon_blue = 0x04, falcon_red = 0x08 };
 
 struct FalconCommand {
-  std::array<int, 3> motors{};  ///< -4096 to 4096; what lies outside is clamped, never wrapped
-  bool homing = true;           ///< dropping it once makes the Falcon forget where it is
+  std::array<int, 3> motors{};  ///< -4096 to 4096; larger values are clamped, never wrapped
+  bool homing = true;           ///< sending false once makes the Falcon forget its home
   std::uint8_t lights = 0;      ///< FalconLight bits
 };
 
@@ -31,7 +31,7 @@ struct FalconReply {
 };
 
 std::array<std::uint8_t, falcon_packet_size> encode(const FalconCommand& command) noexcept;
-/// Of one packet; nothing unless every byte is one that a Falcon sends.
+/// Decodes one packet; nothing unless every byte is one that a Falcon sends.
 std::optional<FalconReply> decode_falcon_reply(std::span<const std::uint8_t> packet) noexcept;
 
 /// Finds replies in a stream that may be split, joined or garbled anywhere.
@@ -49,8 +49,8 @@ class FalconReplies {
   std::uint64_t garbled_bytes_ = 0;
 };
 
-/// Motor commands for arm torques (N m): -gain tau, all three shrunk by one factor where one of them passes the limit,
-/// so that the force keeps its direction. Zeros where a torque is not finite.
+/// Motor commands for arm torques (N m): -gain tau, all scaled by one factor if one of them passes the limit, so that
+/// the force keeps its direction. Zeros if a torque is not finite.
 std::array<int, 3> falcon_motors(const Vec3& torques, double gain) noexcept;
 
 }  // namespace palpate::device

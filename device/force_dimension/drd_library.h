@@ -44,9 +44,9 @@ struct DrdLibrary {
   int (*set_force_and_torque_and_gripper_force)(double fx, double fy, double fz, double tx, double ty, double tz,
                                                 double gripper, char id) = nullptr;
 
-  /// Empty where the device has no serial number: the library then gives 65535.
+  /// Empty if the device has no serial number: the library then gives 65535.
   std::string serial_of(char id) const;
-  /// Lets the firmware take away a force that is not renewed for 30 ms. False where the device has no such watchdog.
+  /// Lets the firmware take away a force that is not renewed for 30 ms. False if the device has no such watchdog.
   bool set_own_watchdog(char id) const noexcept;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Force Dimension's omega, delta, sigma and lambda (and the Novint Falcon) through the maker's own library, libdrd.so,
-/// which is loaded where it is installed. Written from its public declarations (DHD and DRD 3.17.5) and tested against
-/// a library of the same C interface: never run on hardware.
+/// if it is installed. Written from its public declarations (DHD and DRD 3.17.5) and tested against a library of the
+/// same C interface: never run on hardware.
 
 #include <memory>
 #include <string>
@@ -15,11 +15,11 @@
 namespace palpate::device {
 
 struct ForceDimensionSettings {
-  std::string address;            ///< its serial number; empty: the only one there is
+  std::string address;            ///< its serial number; empty: the only one
   bool may_home = false;          ///< an arm that has no home yet may move by itself to find it
-  double maximum_force = 0;       ///< N; 0: what the device reports, which is never exceeded
+  double maximum_force = 0;       ///< N; 0: the device's own figure, which is never exceeded
   double stiffness_limit = 1500;  ///< N/m
-  bool guarded = true;            ///< start a guardian process where palpate-guardian is found
+  bool guarded = true;            ///< start a guardian process if palpate-guardian is found
   AxisSigns signs;
 };
 

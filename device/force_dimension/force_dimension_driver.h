@@ -16,7 +16,7 @@ namespace palpate::device {
 /// Of an omega: 12 N; it holds 14.5 N/mm, more than the chain allows.
 constexpr SettingLimits force_dimension_limits{.force_n = 12, .tells_force = true};
 
-/// A device that answers each call over USB: it is asked and told in the stylus' own thread.
+/// A device that answers each call over USB: the stylus' own thread makes the calls.
 class ForceDimensionDriver final : public Driver {
  public:
   explicit ForceDimensionDriver(const ForceDimensionSettings& settings, const DriverClock& clock = {})

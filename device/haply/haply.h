@@ -13,14 +13,14 @@
 namespace palpate::device {
 
 struct HaplySettings {
-  std::string address;             ///< the device's id ("049D"), as FoundDevice::address; empty: the only one there is
+  std::string address;             ///< the device's id ("049D"), as FoundDevice::address; empty: the only one
   std::string host = "localhost";  ///< of the service
   int port = 10001;                ///< its simulation channel
-  int events_port = 10020;         ///< its events: of its emergency brake; 0: not heard
+  int events_port = 10020;         ///< its events: of its emergency brake; 0: not read
   std::string preset = "arm_front_centered";  ///< puts the origin in the middle of the workspace
   double maximum_force = 3;                   ///< N; the maker publishes none
   double stiffness_limit = 400;               ///< N/m, likewise
-  bool guarded = true;                        ///< start a guardian process where palpate-guardian is found
+  bool guarded = true;                        ///< start a guardian process if palpate-guardian is found
   AxisSigns signs;
 };
 

@@ -17,9 +17,9 @@ namespace palpate::device {
 /// s that the service has for each answer while a link to it is opened, and then for its first message.
 constexpr double haply_patience = 2.0;
 
-/// Of the service, as GET /version tells it.
+/// The service's version, from GET /version.
 struct HaplyVersion {
-  int major = 0;  ///< 0: it did not tell
+  int major = 0;  ///< 0: not reported
   int minor = 0;
 };
 HaplyVersion parse_haply_version(std::string_view reply) noexcept;
@@ -28,7 +28,7 @@ HaplyVersion parse_haply_version(std::string_view reply) noexcept;
 class HaplyLink : public Link {
  public:
   virtual HaplyVersion version() const noexcept = 0;
-  /// Whether the service's events come as packets between the answers.
+  /// Whether the service's events arrive as packets between the answers.
   virtual bool hears_events() const noexcept = 0;
 };
 
@@ -41,19 +41,19 @@ struct HaplyDevice {
   double force_gate = 0;  ///< filters.force_gate.gain
   double damping = 0;     ///< filters.damping.scalar
   bool torque_scaled = false;
-  bool calibrated = true;  ///< of its status; true where it does not tell
+  bool calibrated = true;  ///< from its status; true if that does not say
   bool ready = true;
 };
-/// Empty where the text is no inventory.
+/// Empty if the text is not an inventory.
 std::vector<HaplyDevice> haply_inventory(std::string_view message);
-/// What of its settings changes what the hand feels, in a sentence.
+/// The settings of the device that change what the hand feels, in a sentence.
 std::string describe(const HaplyDevice& device);
 
 /// The same stylus as make_haply()'s, on any link.
 std::unique_ptr<LinkStylus> make_haply_on(const HaplySettings& settings, LinkMaker make_link,
                                           const LinkStylusOptions& options);
 
-/// One message, one answer. A force lasts until the next message, and a device that is told nothing goes idle.
+/// One message, one answer. A force lasts until the next message; without messages the device goes idle.
 class HaplyProtocol final : public Protocol {
  public:
   explicit HaplyProtocol(const HaplySettings& settings) : settings_(settings) {}
@@ -64,7 +64,7 @@ class HaplyProtocol final : public Protocol {
   const ProtocolStatus& status() const noexcept override { return status_; }
   std::size_t packet_size() const noexcept override { return 1 << 16; }
   void describe(Specification& specification) const override;
-  /// N, that the service told last to act; the service's frame. Nothing before it told any.
+  /// N, the service's frame: the acting force that the service last reported. Nothing before its first report.
   const std::optional<Vec3>& acting_force() const noexcept { return acting_; }
 
  private:

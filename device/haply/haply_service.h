@@ -11,15 +11,15 @@ namespace palpate::device {
 /// Connects to the service. Throws std::runtime_error naming it and what to do.
 std::unique_ptr<HaplyLink> open_haply_service(const HaplySettings& settings);
 
-/// What the service on this machine has. Never throws: no service is no devices.
+/// The devices of the service on this machine. Never throws: without the service the list is empty.
 std::vector<FoundDevice> find_haply();
 
-/// The settings where no file names others: host and port from $PALPATE_HAPLY ("localhost:10001"), if it is set.
+/// The settings without a file: host and port from $PALPATE_HAPLY ("localhost:10001"), if it is set.
 HaplySettings haply_defaults();
 
-/// For the guardian, "ID@HOST:PORT": a second session with the service, which sends zeros until the service tells that
-/// no force acts. Forces of several sessions add up, so that it cannot take another's away: false where one stays.
-/// Throws std::runtime_error.
+/// For the guardian, "ID@HOST:PORT": a second session with the service, which sends zeros until the service reports
+/// that no force acts. Forces of several sessions add up, so this cannot remove another session's force: false if one
+/// remains. Throws std::runtime_error.
 bool send_zeros_to_haply(const std::string& address);
 
 }  // namespace palpate::device

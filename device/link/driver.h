@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the thread of a LinkStylus drives: a device that speaks in packets (packet_driver.h), or one that is reached
-/// through its maker's library.
+/// A device as the thread of a LinkStylus drives it: it exchanges packets (packet_driver.h), or is reached through its
+/// maker's library.
 
 #include "device/link/protocol.h"
 #include "device/stylus.h"
@@ -10,10 +10,10 @@ namespace palpate::device {
 
 /// A device's answer to a force. It is judged apart from its poses: a device that refuses forces may send good poses.
 enum class ForceAnswer : std::uint8_t {
-  taken,     ///< the device or its wire took it; two poses later the device has it
-  waiting,   ///< nothing could be handed over yet: what lies on the device is what was given before
-  withheld,  ///< the driver gave a zero in its place
-  refused    ///< the device refused it: what lies on the device is not known
+  taken,     ///< the device or its wire took it; after two more poses the device has it
+  waiting,   ///< nothing could be sent yet: the device still has the previous force
+  withheld,  ///< the driver sent a zero in its place
+  refused    ///< the device refused it: the force on the device is not known
 };
 
 /// Used by one thread at a time. Only connect() throws.
@@ -34,14 +34,14 @@ class Driver {
   virtual void take(double timeout) noexcept = 0;
   /// Hands a force (N) to the device without waiting for it to act.
   virtual ForceAnswer give(const Vec3& force) noexcept = 0;
-  /// Waits at most `timeout` s until what was given has left.
+  /// Waits at most `timeout` s until everything given has left.
   virtual void flush(double timeout) noexcept = 0;
-  /// Whether the device is gone; it stays so until it is connected again.
+  /// Whether the device is gone; it stays so until the next connect().
   virtual bool lost() const noexcept = 0;
   virtual const ProtocolStatus& status() const noexcept = 0;
   /// s without a new pose after which the device counts as dead.
   virtual double longest_silence() const noexcept { return 0.100; }
-  /// What the connected device says of itself, where it says anything.
+  /// Adds what the connected device reports about itself.
   virtual void describe(Specification& /*specification*/) const {}
 };
 

@@ -1,8 +1,9 @@
 #pragma once
 
-/// The last layer before a device: what was given to it, and what may be given next. It owns three laws. What lies on
-/// the device is known, or the worst is assumed. No force changes faster than the slew ceiling. Every zero that was put
-/// in for any reason (a late servo, a doubtful pose, a device that refused or did not answer) is followed by a ramp.
+/// The last layer before a device: it keeps the force on the device and decides the next one. It has three laws. The
+/// force on the device is known, or the worst is assumed. No force changes faster than the slew ceiling. Every zero
+/// that was inserted for any reason (a late servo, a doubtful pose, a device that refused or did not answer) is
+/// followed by a ramp.
 
 #include <limits>
 
@@ -16,16 +17,16 @@ class GivenForce {
  public:
   /// The device may still hold the force of a program that ended before.
   void start(double now) noexcept;
-  /// N: to be given now. `wanted`: what was asked for; `withheld`: a zero is put in in its place.
+  /// N: the force to give now. `wanted`: the requested force; `withheld`: a zero replaces it.
   Vec3 next(const Vec3& wanted, bool withheld, double now) noexcept;
-  /// What lies on the device if the force of next() reaches it. `news`: poses so far (ProtocolStatus::news).
+  /// The state of the device if the force of next() reaches it. `news`: poses so far (ProtocolStatus::news).
   OnDevice while_giving(const Vec3& force, std::uint64_t news) noexcept;
-  /// How the device answered the force of next().
+  /// Records the device's answer to the force of next().
   void answered(ForceAnswer answer, const Vec3& force, std::uint64_t news, double now) noexcept;
-  /// The device is gone or silent.
+  /// To be called if the device is gone or silent.
   void doubt() noexcept;
   OnDevice on_device() const noexcept { return on_device_; }
-  /// s for which the device has refused every force.
+  /// s since the device began to refuse every force.
   double refused_for(double now) const noexcept { return refuses_ ? now - taken_time_ : 0; }
   /// N
   const Vec3& given() const noexcept { return given_; }

@@ -13,20 +13,20 @@ struct HidIds {
   unsigned vendor = 0, product = 0, usage_page = 0, usage = 0;
 };
 
-/// What is to be known of a kind of device that is reached by HID.
+/// A kind of device that is reached by HID.
 struct HidKind {
   const char* kind;  ///< DeviceType::kind
-  const char* name;  ///< in errors
+  const char* name;  ///< its name in errors
   bool (*is_it)(const HidIds& ids) noexcept;
   bool is_held_alone = false;  ///< by a lock on its node: the kernel lets any number of programs write to an arm
-  const char* note = "";       ///< of each that is found
+  const char* note = "";       ///< for each device found
 };
 
-/// The devices of a kind. Never throws; empty where HID does not work.
+/// The devices of a kind. Never throws; empty if HID does not work.
 std::vector<FoundDevice> find_hid_devices(const HidKind& wanted);
 
-/// What the kernel says of the device at a hidraw path beside its number: its ids, its socket, its serial number. Empty
-/// where there is none.
+/// The kernel's data on the device at a hidraw path, beside its number: its ids, its socket, its serial number. Empty
+/// if there is none.
 std::string hid_identity(const std::string& path);
 
 /// Opens the device of a kind at a hidraw path, or the only one. Throws std::runtime_error naming it and what to do.

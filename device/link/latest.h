@@ -19,7 +19,7 @@ class Latest {
     write_ = shared_.exchange(write_ | fresh, std::memory_order_acq_rel) & index;
   }
 
-  /// The newest value stored, or the one returned before when there is none.
+  /// The newest value stored, or the previous one again if there is none.
   const T& load() noexcept {
     if (shared_.load(std::memory_order_relaxed) & fresh) {
       read_ = shared_.exchange(read_, std::memory_order_acq_rel) & index;

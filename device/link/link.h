@@ -1,6 +1,6 @@
 #pragma once
 
-/// What carries packets between a driver's protocol and its device: USB, HID, or a fake in the same process.
+/// Carries packets between a driver's protocol and its device: USB, HID, or a fake in the same process.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,16 +18,16 @@ class Link {
 
   /// s, never decreasing. The link's own, so that a fake can run faster than the clock.
   virtual double now() noexcept = 0;
-  /// The next packet that arrived, waiting for it at most `timeout` s; 0 when there is none.
+  /// The next packet that arrived, waiting for it at most `timeout` s; 0 if there is none.
   virtual std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept = 0;
-  /// Hands a packet over without waiting; false when the one before has not left yet.
+  /// Hands a packet over without waiting; false if the previous one has not left yet.
   virtual bool send(std::span<const std::uint8_t> packet) noexcept = 0;
   /// Waits at most `timeout` s until everything handed over has left.
   virtual bool flush(double timeout) noexcept = 0;
   virtual bool lost() const noexcept = 0;
 };
 
-/// The Falcon's serial chip in between (FTDI FT232R).
+/// A link through the Falcon's serial chip (FTDI FT232R).
 class FalconLink : public Link {
  public:
   /// A vendor request without data (bmRequestType 0x40, wIndex 0).

@@ -55,7 +55,7 @@ class LinkStylus final : public Stylus {
   Text trouble() const override { return advice_for(fault()); }
 
   LinkFault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
-  /// Of the exchanging thread; after close(): what was left on the device.
+  /// For the exchanging thread; after close(): the last state of the device.
   OnDevice on_device() const noexcept { return given_.on_device(); }
   /// One exchange, waiting for packets at most `timeout` s. Only without a thread.
   void service(double timeout) noexcept;

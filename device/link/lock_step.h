@@ -1,9 +1,9 @@
 #pragma once
 
-/// Of a device that answers each command once and in turn: when the next command is due, and how old the pose in an
-/// answer is. No answer tells which command it belongs to, so they are counted. An answer that is overdue is lost, or
-/// on its way. If it were taken for lost and came, each later pose would be taken for a newer one than it is, and would
-/// stay so. So a lost answer costs a pause, in which it is waited for.
+/// For a device that answers each command once and in turn: when the next command is due, and how old the pose in an
+/// answer is. An answer does not say which command it belongs to, so answers are counted. An overdue answer is lost or
+/// still on its way. If it were counted as lost and then came, every later pose would count as newer than it is. So
+/// after a lost answer there is a pause, to wait for it.
 
 #include <array>
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace palpate::device {
 
 struct LockStepTimes {
   double overdue = 0.020;       ///< s after which a command is repeated, and the pose in its answer is too old
-  bool speaks_unasked = false;  ///< an answer to no command is a pose of now
+  bool speaks_unasked = false;  ///< an answer without a command has a current pose
 };
 
 class LockStep {
  public:
-  /// s: a missing answer that has not come for so long after another one, is lost. One that takes longer leaves the
+  /// s: a missing answer counts as lost if it has not come for this long after another one. A longer time leaves the
   /// link without a pose for longer than Protocol::longest_silence().
   static constexpr double longest_way = 0.050;
 
@@ -32,8 +32,8 @@ class LockStep {
   void sent(double now) noexcept;
   /// This many answers came.
   void answered(std::uint64_t count, double now) noexcept;
-  /// Whether the last answer tells of now: it and the one before it came in time, and none is missing. If not, nobody
-  /// knows where the hand is.
+  /// Whether the last answer is current: it and the one before it came in time, and none is missing. If not, the
+  /// position of the hand is not known.
   bool is_current() const noexcept { return on_time_ >= enough_on_time; }
 
  private:

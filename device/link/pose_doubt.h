@@ -1,7 +1,7 @@
 #pragma once
 
 /// Decides when impossible poses are a fault. A single one is a garbled packet, or a hand at the edge of the reach: the
-/// driver then keeps the last pose and says that it is doubtful. It is a fault only if that lasts.
+/// driver then keeps the last pose and marks it doubtful. It is a fault only if that lasts.
 
 #include <algorithm>
 
@@ -11,16 +11,16 @@ class PoseDoubt {
  public:
   static constexpr double patience = 0.080;  ///< s
 
-  /// `recovery`: s of doubt that a second of good poses takes away.
+  /// `recovery`: s of doubt that a second of good poses removes.
   explicit PoseDoubt(double recovery) : recovery_(recovery) {}
 
-  /// To be called for an impossible pose, at a time in s. Returns whether the doubt has lasted longer than `patience`.
+  /// Call it for an impossible pose, at a time in s. Returns whether the doubt has lasted longer than `patience`.
   bool lasts(double now) noexcept {
     if (time_ > 0) doubt_ += std::max(0.0, now - time_);
     time_ = now;
     return doubt_ > patience;
   }
-  /// To be called for a possible pose, at a time in s.
+  /// Call it for a possible pose, at a time in s.
   void ends(double now) noexcept {
     doubt_ = std::max(0.0, doubt_ - recovery_ * (now - time_));
     time_ = now;

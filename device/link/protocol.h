@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a driver knows of its device's packets and geometry: no thread, no clock, no USB.
+/// A driver's knowledge of its device's packets and geometry: no thread, no clock, no USB.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace palpate::device {
 
-/// Why a driver gave up, until it is opened again.
+/// The reason for which a driver stopped, until it is opened again.
 enum class LinkFault : std::uint8_t {
   none,
   unplugged,
@@ -20,12 +20,12 @@ enum class LinkFault : std::uint8_t {
   slow,
   unreachable_pose,
   unhomed,
-  held_up,         ///< this process was stopped, or its thread held up
+  held_up,         ///< this process was stopped, or its thread was delayed
   slept,           ///< the machine was suspended
-  forces_refused,  ///< the device takes forces and gives none
+  forces_refused,  ///< the device accepts forces but does not exert them
   own_safety,      ///< the device's own safety took the force away
-  foreign_force,   ///< a force acts on it that was not sent
-  unguarded        ///< the guardian ended or stands still
+  foreign_force,   ///< a force acts on it that this program did not send
+  unguarded        ///< the guardian ended or does not respond
 };
 const char* name_of(LinkFault fault);
 /// In a sentence: what happened and what to do. Empty for `none`.
@@ -36,12 +36,12 @@ struct ProtocolStatus {
   LinkFault fault = LinkFault::none;
   Vec3 position{0};  ///< m, device frame; always finite
   std::uint32_t buttons = 0;
-  std::uint64_t news = 0;  ///< how many poses there have been
+  std::uint64_t news = 0;  ///< the number of poses so far
   glm::dquat orientation{1, 0, 0, 0};
-  /// The last poses could not be. The link holds the last force for LinkStylusOptions::force_age, lets it fall to zero,
-  /// and ramps it up when the doubt ends.
+  /// The last poses were impossible. The link holds the last force for LinkStylusOptions::force_age, lets it fall to
+  /// zero, and ramps it up when the doubt ends.
   bool doubtful = false;
-  bool withheld = false;  ///< Protocol::step() made a packet of zeros in place of the force that it was asked for
+  bool withheld = false;  ///< Protocol::step() sent zeros in place of the requested force
 };
 
 class Protocol {
@@ -57,14 +57,14 @@ class Protocol {
   virtual void disconnected(bool /*lost*/) noexcept {}
   /// A packet that arrived.
   virtual void receive(std::span<const std::uint8_t> packet, double now) noexcept = 0;
-  /// After all that arrived: the packet to send now (its size; 0 when none is due), for this force (N).
+  /// After all packets that arrived: the packet to send now (its size; 0 if none is due), for this force (N).
   virtual std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept = 0;
   virtual const ProtocolStatus& status() const noexcept = 0;
   /// s without a new pose after which the device counts as dead.
   virtual double longest_silence() const noexcept { return 0.100; }
   /// The largest packet, bytes.
   virtual std::size_t packet_size() const noexcept { return 64; }
-  /// What the connected device says of itself, where it says anything.
+  /// Adds what the connected device reports about itself.
   virtual void describe(Specification& /*specification*/) const {}
 };
 

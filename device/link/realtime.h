@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a servo thread asks of the operating system, and how well its deadlines were met.
+/// Real-time scheduling for a servo thread, and how well its deadlines were met.
 
 #include <sys/types.h>
 
@@ -14,10 +14,10 @@ namespace palpate::device {
 struct RealtimeStatus {
   bool scheduled = false;      ///< SCHED_FIFO was granted to this thread
   bool memory_locked = false;  ///< no page of the process will be fetched from disk in a tick
-  Text advice;                 ///< empty, or what was refused and what to do about it
+  Text advice;                 ///< empty, or what the system refused and what to do about it
 };
 
-/// SCHED_FIFO for the calling thread. False where the system does not allow it; nothing else changes then.
+/// SCHED_FIFO for the calling thread. If the system does not allow it, returns false and changes nothing.
 bool make_thread_realtime(int priority) noexcept;
 
 /// SCHED_FIFO for the calling thread and locked memory for the process. Never throws; the result says what was refused.

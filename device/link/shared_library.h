@@ -1,6 +1,6 @@
 #pragma once
 
-/// A maker's library, loaded where it is installed: nothing of it is needed to build or to start.
+/// A maker's library, loaded at run time: building and starting the program do not need it.
 
 #include <span>
 #include <string>
@@ -11,17 +11,17 @@ namespace palpate::device {
 
 class SharedLibrary {
  public:
-  /// The first of these files that can be loaded. Throws std::runtime_error that begins with `device` and says what
-  /// was tried, what the loader said and, as `advice`, what to install. It stays loaded until the program ends: makers'
-  /// drivers fail when they are loaded twice.
+  /// Loads the first of these files that can be loaded. Throws std::runtime_error that begins with `device` and lists
+  /// the files tried, the loader's error and, as `advice`, what to install. The library stays loaded until the program
+  /// ends: makers' drivers fail when they are loaded twice.
   SharedLibrary(const std::string& device, std::span<const std::string> files, const std::string& advice);
 
-  /// Puts the address of a function of this name into `function`. Throws std::runtime_error where there is none.
+  /// Puts the address of the function of this name into `function`. Throws std::runtime_error if there is none.
   template <typename Function>
   void find(const char* name, Function*& function) const {
     function = reinterpret_cast<Function*>(address_of(name));
   }
-  /// Null where there is none.
+  /// Puts null if there is none.
   template <typename Function>
   void find_if_there(const char* name, Function*& function) const noexcept {
     function = reinterpret_cast<Function*>(look_up(name));

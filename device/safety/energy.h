@@ -1,9 +1,9 @@
 #pragma once
 
 /// Damps ringing as soon as it begins. A passive wall returns at most the energy that the hand put in. A wall that is
-/// too stiff for its delay returns more, at the frequencies at which it rings. This energy is observed, and damping is
+/// too stiff for its delay returns more, at the frequencies at which it rings. This energy is measured, and damping is
 /// added while there is any: B. Hannaford and J.-H. Ryu, "Time-domain passivity control of haptic interfaces", 2002.
-/// Only the fast part of force and velocity is counted, because a scene may push the hand along slowly.
+/// Only the fast part of force and velocity counts, because a scene may push the hand along slowly.
 
 #include <glm/vec3.hpp>
 
@@ -26,12 +26,11 @@ struct EnergyState {
   Vec3 velocity{0};       ///< m/s, low-passed over two samples
   Vec3 slow_velocity{0};  ///< m/s, below the corner
   Vec3 slow_force{0};     ///< N
-  Vec3 force{0};          ///< N: what was asked for in the tick before
+  Vec3 force{0};          ///< N: the force requested in the previous tick
   double generated = 0;   ///< J in the fast band, forgotten over the memory; below zero if the wall has taken energy
 };
 
-/// The force with damping added. To be called in every tick, before the safety filter. No allocation, lock or
-/// exception.
+/// The force with damping added. Call it in every tick, before the safety filter. No allocation, lock or exception.
 Vec3 damp_ringing(const EnergyLimits& limits, const Reading& reading, const Vec3& force, EnergyState& state) noexcept;
 
 }  // namespace palpate::device

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The last second before a fault, and a little after it: what the safety filter got and gave.
+/// The inputs and results of the safety filter in the last second before a fault, and a little after it.
 
 #include <array>
 #include <atomic>
@@ -28,8 +28,8 @@ class FaultLog {
   bool stopped() const noexcept { return stopped_.load(std::memory_order_acquire); }
   /// Oldest first. From the recording thread at any time; from another one only while stopped().
   std::vector<SafetyTick> ticks() const;
-  /// Forgets the ticks and records again; a fault that is still latched is not recorded once more. From the recording
-  /// thread, or while stopped() from the one that reads.
+  /// Forgets the ticks and records again; a fault that is still latched does not start another record. From the
+  /// recording thread, or while stopped() from the one that reads.
   void clear() noexcept;
 
  private:

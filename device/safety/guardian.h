@@ -23,33 +23,33 @@ struct GuardianSettings {
 
 class Guardian {
  public:
-  /// s that it has to prove itself, and again to look for its device.
+  /// s for its proof, and again for its search for the device.
   static constexpr double patience_s = 5;
-  /// s at most that its end is waited for, whatever it is stuck in.
+  /// s: the longest wait for its end, even if it hangs.
   static constexpr double end_within_s = 2;
 
-  /// `pid` 0: there is no process, and `shared` is somebody else's.
+  /// `pid` 0: there is no process, and somebody else owns `shared`.
   Guardian(int pid, int pipe, GuardianBeat* shared, std::string program = {})
       : pid_(pid), pipe_(pipe), shared_(shared), program_(std::move(program)) {}
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
   ~Guardian() { dismiss(); }
 
-  /// Waits until it has shown that it is a guardian. Throws std::runtime_error if it ends, or does not within
+  /// Waits until it has proved that it is a guardian. Throws std::runtime_error if it ends, or has no proof within
   /// `patience` s.
   void prove(double patience = patience_s) const;
-  /// Waits until it says what it can do for the device. Throws std::runtime_error as prove() does, and if it can do
+  /// Waits until it reports its reach for the device. Throws std::runtime_error as prove() does, and if it can do
   /// nothing.
   GuardianReach reach(double patience = patience_s) const;
-  /// What it can do, in words for the user; after reach().
+  /// Its reach, in words for the user; after reach().
   Text describe() const;
 
-  /// The device was closed in good order: the guardian leaves it alone and ends. One that does not is ended.
+  /// The device was closed in good order: the guardian leaves it alone and ends. If it does not end, it is killed.
   void dismiss() noexcept { end('q'); }
   /// The device was lost, perhaps with its force on. The guardian goes on by itself until the device is back or the
   /// user logs out, and sends zeros as soon as it is back.
   void hand_over() noexcept { end('w'); }
-  /// In each exchange with the device, before a force is given to it. After a device is lost there is no more beat.
+  /// To be called in each exchange with the device, before a force is given to it; not after a device is lost.
   /// Wait-free.
   void beat(OnDevice on_device) noexcept {
     shared_->on_device.store(on_device, std::memory_order_relaxed);
@@ -71,20 +71,19 @@ class Guardian {
   std::string program_;
 };
 
-/// Nothing where no program is named. Throws std::runtime_error where it cannot be started.
+/// Null if no program is named. Throws std::runtime_error if it cannot be started.
 std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings);
 
-/// Whether a guardian of this user can leave the session's control group: there is a systemd that runs the user's
-/// scopes. Where there is none, who ends the whole group (a container's end, an out-of-memory killer) ends both.
+/// Whether a guardian of this user can leave the session's control group: a systemd runs the user's scopes. If not,
+/// whoever ends the whole group (the end of a container, an out-of-memory killer) ends both.
 bool guardian_can_leave_group();
 
-/// The path of palpate-guardian: $PALPATE_GUARDIAN if it is set; else the first one that is found of
-/// guardian_candidates(). Empty if there is none.
+/// The path of palpate-guardian: $PALPATE_GUARDIAN if it is set; else the first of guardian_candidates() that exists.
+/// Empty if there is none.
 std::string guardian_program();
 
-/// Where palpate-guardian may lie, in the order of search: beside `program`; beside the plug-in or program
-/// `loaded_from`; in bin and libexec/palpate of every folder above it, which finds a build's and an installed one; and
-/// at `installed`.
+/// Places of palpate-guardian, in the order of search: beside `program`; beside the plug-in or program `loaded_from`;
+/// in bin and libexec/palpate of every folder above it, which finds a build's and an installed one; and at `installed`.
 std::vector<std::string> guardian_candidates(const std::string& program, const std::string& loaded_from,
                                              const std::string& installed);
 

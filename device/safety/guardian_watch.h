@@ -6,19 +6,19 @@
 
 namespace palpate::device {
 
-/// Notices a session that stands still while a force may lie on the device (OnDevice::unknown counts as a force). A
-/// function of what it sees at its looks: who looks keeps the time.
+/// Detects a session that is stopped while a force may be on the device (OnDevice::unknown counts as a force). It has
+/// no clock: the caller polls it at even times.
 class GuardianWatch {
  public:
   static constexpr int look_every_ms = 20;
-  /// A device takes a force that is older for no force of ours.
+  /// A session that stops counting for this long is stopped.
   static constexpr int stopped_after_ms = 200;
   static constexpr int looks_until_stopped = stopped_after_ms / look_every_ms;
 
-  /// `beat`: what the session shares; null where it shares nothing, which never counts as stopped.
+  /// `beat`: the session's counter; null if it shares none, which never counts as stopped.
   explicit GuardianWatch(const GuardianBeat* beat) : beat_(beat) {}
-  /// To be called every look_every_ms. True from the look on at which the session has stood still for
-  /// looks_until_stopped looks, until it goes on.
+  /// Call it every look_every_ms. True from the poll at which the session has been stopped for looks_until_stopped
+  /// polls, until it goes on.
   bool stopped() {
     if (beat_ == nullptr) return false;
     const auto count = beat_->count.load(std::memory_order_relaxed);
@@ -27,7 +27,7 @@ class GuardianWatch {
     looks_ = still ? looks_ + 1 : 0;
     return looks_ >= looks_until_stopped;
   }
-  /// The first time since the session went on.
+  /// Whether this is the first such poll since the session last went on.
   bool stopped_just_now() const { return looks_ == looks_until_stopped; }
 
  private:

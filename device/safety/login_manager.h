@@ -6,9 +6,9 @@
 
 namespace palpate::device {
 
-/// The guardian's part with systemd, by D-Bus. logind announces a sleep (a closed lid, the menu, an empty battery) and
-/// waits, at most 5 s as it is set by default, for whoever holds a delay lock. The user's systemd gives the guardian a
-/// scope of its own. Where there is no bus or none of the two, nothing happens. Nothing here waits for an answer.
+/// The guardian's D-Bus client of systemd. logind announces a sleep (a closed lid, the menu, an empty battery) and
+/// waits, by default at most 5 s, for the holders of delay locks. The user's systemd gives the guardian a scope of its
+/// own. Without a bus or these services it does nothing. It never waits for an answer.
 class LoginManager {
  public:
   /// Takes a delay lock, and asks for a scope for this process.
@@ -17,12 +17,12 @@ class LoginManager {
   LoginManager& operator=(const LoginManager&) = delete;
   ~LoginManager();
 
-  /// Takes in what has come. To be called every few hundredths of a second.
+  /// Handles the messages that have arrived. Call it every few hundredths of a second.
   void look() noexcept;
   /// From the announcement of a sleep until the machine is awake again.
   bool sleep_is_near() const noexcept { return sleep_is_near_; }
   bool holds_lock() const noexcept { return lock_ >= 0; }
-  /// Gives the lock back: nothing is pushed any more. A new one is taken when the machine is awake again.
+  /// Releases the lock, once no force is on the device. A new one is taken when the machine is awake again.
   void let_sleep() noexcept;
 
  private:

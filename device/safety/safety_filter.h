@@ -17,7 +17,7 @@
 
 namespace palpate::device {
 
-/// Why the force was taken away.
+/// The reason for which the force was taken away.
 enum class Fault : std::uint8_t {
   none,
   pose_not_finite,
@@ -30,20 +30,20 @@ enum class Fault : std::uint8_t {
   commander_silent,  ///< no sign of life for SafetyLimits::heartbeat_time
 };
 const char* name_of(Fault fault);
-/// A sentence on what happened and what the user can do about it; empty without a fault.
+/// A sentence that says what happened and what the user can do; empty without a fault.
 Text advice_for(Fault fault);
 
 struct SafetyInput {
   double time = 0;             ///< s, never decreasing: now
   Reading reading;             ///< what the stylus returned in this tick
-  State device = State::idle;  ///< Stylus::state(); anything but idle, ramping and active gives no force
-  Vec3 force{0};               ///< N: asked for
+  State device = State::idle;  ///< Stylus::state(); only idle, ramping and active give a force
+  Vec3 force{0};               ///< N: requested
   double force_time = 0;       ///< s, same clock as `time`: when that force was computed
-  double heartbeat_time = 0;   ///< s, same clock: when the controlling thread was last seen alive
+  double heartbeat_time = 0;   ///< s, same clock: the last sign of life of the controlling thread
 };
 
 struct SafetyResult {
-  Vec3 force{0};              ///< N: what may be written
+  Vec3 force{0};              ///< N: the force that may be written
   State state = State::idle;  ///< idle (not armed), homing, ramping, active, fault, disconnected
   Fault fault = Fault::none;  ///< latched
   double speed = 0;           ///< m/s, low-passed

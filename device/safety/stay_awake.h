@@ -1,7 +1,7 @@
 #pragma once
 
-/// Keeps the machine from going to sleep while a stylus with motors is held: logind is asked through systemd-inhibit, a
-/// process that ends with this one. A machine that sleeps all the same is a fault when it wakes (LinkFault::slept).
+/// Keeps the machine from sleeping while a stylus with motors is open, through systemd-inhibit, a process that ends
+/// with this one. If the machine sleeps anyway, this is a fault when it wakes (LinkFault::slept).
 
 #include <memory>
 #include <string>

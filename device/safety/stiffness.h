@@ -1,12 +1,12 @@
 #pragma once
 
-/// How stiff a wall can be before a sampled, delayed and quantized device makes it ring.
+/// The stiffest wall that a sampled, delayed and quantized device renders without ringing.
 
 namespace palpate::device {
 
 struct RenderingDynamics {
   double device_damping = 0;    ///< N s/m: viscous friction of the arm
-  double hand_damping = 0;      ///< N s/m: what a hand adds while it holds the stylus
+  double hand_damping = 0;      ///< N s/m: damping by the hand that holds the stylus
   double coulomb_friction = 0;  ///< N
   double position_step = 0;     ///< m
   double period = 1e-3;         ///< s: the servo tick

@@ -6,12 +6,12 @@
 namespace palpate::device {
 
 struct SustainedLimit {
-  double continuous = 0;  ///< A or N that may last for ever; 0: not known, and nothing is limited
-  double peak = 0;        ///< the same unit: what may last for `time`
+  double continuous = 0;  ///< A or N that it can bear without end; 0: not known, and nothing is limited
+  double peak = 0;        ///< the same unit: what it can bear for `time`
   double time = 4;        ///< s
 };
 
-/// The heat of one motor above what leaves it by itself.
+/// The heat of one motor beyond what it loses at its continuous value.
 class SustainedLoad {
  public:
   /// The largest current or force allowed now. Falls smoothly to the continuous one as the heat nears its limit.

@@ -6,16 +6,16 @@
 
 namespace palpate::device {
 
-/// The guardian's tries to take the force from a session that stands still, look by look: until one succeeds, or the
-/// session goes on.
+/// The guardian's attempts to take the force from a session that is stopped, one at each poll: until one succeeds, or
+/// the session goes on.
 class TakeOver {
  public:
-  /// s of vain tries after which the user is asked to switch the device off. The tries go on.
+  /// s of failed attempts after which the user is asked to switch the device off. The attempts go on.
   static constexpr double unreachable_after_s = 0.5;
   enum class Result : std::uint8_t { nothing_new, zeroed, unreachable };
 
   explicit TakeOver(std::function<bool()> try_once) : try_once_(std::move(try_once)) {}
-  /// After every look at which `watch` says stopped(). `now`: s.
+  /// Call it after every poll at which `watch` is stopped(). `now`: s.
   Result look(const GuardianWatch& watch, double now);
 
  private:

@@ -7,27 +7,27 @@
 
 namespace palpate::device {
 
-/// s until the next try to reach a device that could not be reached for so long. At first at once, because a session
-/// that is ending may let go of it any moment; then less often, but never so rarely that a device that is plugged in
-/// again keeps its force for 0.3 s.
+/// s until the next attempt to reach a device that could not be reached for `seconds`. At first none, because a session
+/// that is ending may release it at any moment; then longer, but so short that a device that is plugged in again keeps
+/// its force for less than 0.3 s.
 double pause_after(double seconds) noexcept;
 
-/// Tries until `try_once` succeeds, with these pauses. False as soon as `gives_up(s since the first try)`; one try is
-/// always made.
+/// Repeats `try_once` with these pauses until it succeeds. False as soon as `gives_up(s since the first attempt)`;
+/// there is always one attempt.
 bool keep_trying(const std::function<bool()>& try_once, const std::function<bool(double)>& gives_up,
                  const DriverClock& clock = {});
 
-/// One try to open the device and send zeros until it has taken some; for the guardian, which knows nothing of its
-/// state. `take_away`: from a process that is stopped and will not let go of it. Never throws.
+/// One attempt to open the device and send zeros until it has taken some; for the guardian, which does not know its
+/// state. `take_away`: from a process that is stopped and will not release it. Never throws.
 bool try_zero_force(const std::string& kind, const std::string& address, bool take_away = false) noexcept;
 
-/// The same for at most `patience` s. False where the device is gone.
+/// The same for at most `patience` s. False if the device is gone.
 bool send_zero_force(const std::string& kind, const std::string& address, double patience, bool take_away = false);
 
 /// Whether the user who is logged in now has logged out: the folder of the login, /run/user/UID, is gone.
 class Login {
  public:
-  /// s for which a device is waited for where nobody is logged in, as in a container.
+  /// s of waiting for a device if nobody is logged in, as in a container.
   static constexpr double without_login_s = 3600;
 
   explicit Login(std::string folder = own_folder());

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where a scripted hand is meant to be, over time.
+/// The target of a scripted hand, over time.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -24,7 +24,7 @@ enum class PathInterpolation : std::uint8_t {
 /// Throws std::invalid_argument naming the waypoint: there is none, one is not finite, or times do not increase.
 void check_path(std::span<const Waypoint> path);
 
-/// The path at a time; before the first waypoint the first, after the last the last. For checked paths only.
+/// The path at a time; the first waypoint before it, the last one after it. For checked paths only.
 Waypoint point_on(std::span<const Waypoint> path, PathInterpolation interpolation, double time) noexcept;
 
 }  // namespace palpate::device

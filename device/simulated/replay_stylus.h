@@ -11,15 +11,15 @@ namespace palpate::device {
 
 class ReplayStylus final : public Stylus {
  public:
-  /// Does not copy: `readings` must outlive the stylus. They are returned as they are, even if they are not fresh or
-  /// not finite.
+  /// Does not copy: `readings` must outlive the stylus. They are returned unchanged, even if they are not fresh or not
+  /// finite.
   explicit ReplayStylus(std::span<const Reading> readings, const Specification& recorded = {});
   /// The same with the state of each tick, so that a lost or homing stylus is repeated, too. Throws
   /// std::invalid_argument if there are not as many states as readings.
   ReplayStylus(std::span<const Reading> readings, std::span<const State> states, const Specification& recorded = {});
 
   Specification specification() const override { return specification_; }
-  /// Starts at the first reading. Throws std::runtime_error when there is none.
+  /// Starts at the first reading. Throws std::runtime_error if there is none.
   void open() override;
   void close() noexcept override;
   /// After the last reading it returns that one again, not fresh.

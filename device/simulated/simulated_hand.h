@@ -1,7 +1,7 @@
 #pragma once
 
-/// A hand that holds a stylus in a rigid grip: one mass, of hand and device together. A spring and a damper draw it to
-/// where the hand wants to be; the device's friction holds it back; the device's force pushes it.
+/// A hand that holds a stylus in a rigid grip: one mass, of hand and device together. A spring and a damper pull it to
+/// the hand's target; the device's friction holds it back; the device's force pushes it.
 ///
 /// (m_d + m_h) a = F - b v - c v/|v| + k_h (target - x) + b_h (target' - v)
 
@@ -24,7 +24,7 @@ struct HandModel {
   std::uint64_t tremor_seed = 1;
 };
 
-/// What the hand moves: a Desktop-PHANTOM-like arm.
+/// The arm that the hand moves: like a Desktop PHANTOM's.
 struct ArmModel {
   double mass = 0.045;                 ///< kg, felt at the tip
   double coulomb_friction = 0.06;      ///< N

@@ -41,13 +41,13 @@ enum class SimulatedFault : std::uint8_t {
 
 class SimulatedStylus final : public Stylus {
  public:
-  /// Throws std::invalid_argument naming the setting that no device can have.
+  /// Throws std::invalid_argument naming the setting that is impossible.
   explicit SimulatedStylus(const SimulatedDevice& device = {});
 
   /// The hand follows these waypoints from open() on; copied. Not while ticking. Throws as check_path().
   void follow(std::span<const Waypoint> path, PathInterpolation interpolation = PathInterpolation::minimum_jerk);
   /// The hand leaves its path and moves to this target (m). From one thread at a time, also while ticking. The hand
-  /// keeps its place while the device is closed.
+  /// stays in place while the device is closed.
   void move_target(const Vec3& target, std::uint32_t buttons = 0) noexcept;
   /// From any thread, also while ticking. SimulatedFault::none plugs it in again; open() is needed after unplugged.
   void inject(SimulatedFault fault) noexcept { fault_.store(fault, std::memory_order_relaxed); }
@@ -59,7 +59,7 @@ class SimulatedStylus final : public Stylus {
   void write_force(const Vec3& force) noexcept override;
   State state() const noexcept override { return state_.load(std::memory_order_relaxed); }
 
-  // Not known of a real device; for studies and tests, from the ticking thread.
+  // A real device cannot report these; for studies and tests, from the ticking thread.
   const BodyState& body() const noexcept { return body_; }             ///< before the position steps
   const Vec3& acting_force() const noexcept { return acting_force_; }  ///< N, now on the arm
 

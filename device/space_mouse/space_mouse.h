@@ -11,7 +11,7 @@
 namespace palpate::device {
 
 struct SpaceMouseSettings {
-  std::string address;                 ///< the hidraw path; empty: the only one there is
+  std::string address;                 ///< the hidraw path; empty: the only one
   double speed = 0.1;                  ///< m/s at full deflection
   double dead_zone = 0.08;             ///< of full deflection
   double full_deflection = 350;        ///< of a report's int16

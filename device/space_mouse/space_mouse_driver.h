@@ -21,7 +21,7 @@ class SpaceMouseProtocol final : public Protocol {
   void receive(std::span<const std::uint8_t> packet, double now) noexcept override;
   std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
   const ProtocolStatus& status() const noexcept override { return status_; }
-  /// A puck at rest says nothing.
+  /// A puck at rest sends nothing.
   double longest_silence() const noexcept override;
 
  private:

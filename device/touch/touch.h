@@ -1,8 +1,8 @@
 #pragma once
 
 /// 3D Systems Touch, Touch X and their ancestors (PHANTOM Omni, Desktop) through the maker's own library, libHD.so of
-/// OpenHaptics, which is loaded where it is installed. Written from its public declarations and tested against a
-/// library of the same C interface: never run on hardware.
+/// OpenHaptics, if it is installed. Written from its public declarations and tested against a library of the same C
+/// interface: never run on hardware.
 
 #include <memory>
 #include <string>
@@ -16,11 +16,11 @@ namespace palpate::device {
 
 struct TouchSettings {
   std::string address;       ///< the name given to it in the maker's set-up ("Default Device"); empty: the default one
-  double maximum_force = 0;  ///< N; 0: what the device says of itself, which is never exceeded
-  double stiffness_limit = 0;  ///< N/m; 0: of its model; never more than the device says of itself
-  /// A model without automatic calibration or inkwell may take the place where it is opened for its reset position.
+  double maximum_force = 0;  ///< N; 0: the device's own figure, which is never exceeded
+  double stiffness_limit = 0;  ///< N/m; 0: that of its model; never above the device's own figure
+  /// Whether a model without automatic calibration or inkwell may take its position at open() as its reset position.
   bool may_reset_encoders = false;
-  bool guarded = true;  ///< start a guardian process where palpate-guardian is found
+  bool guarded = true;  ///< start a guardian process if palpate-guardian is found
   AxisSigns signs;
 };
 

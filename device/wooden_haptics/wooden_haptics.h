@@ -30,12 +30,12 @@ struct WoodenHapticsSettings {
   std::array<int, 3> counts_per_turn{2000, 2000, 2000};
   std::array<int, 3> encoder_sign{1, 1, 1};
   std::array<bool, 3> motor_aligned{false, true, false};  ///< motor and body turn the same way
-  std::array<int, 3> home_counts{0, 0, 0};                ///< encoders in the home pose; of the 2019 arm {0, 0, 6000}
-  double current_limit = 2.0;       ///< A: all three are scaled down together; the amplifiers take it for 4 s
-  double continuous_current = 1.0;  ///< A that each motor takes without end
+  std::array<int, 3> home_counts{0, 0, 0};                ///< encoders in the home pose; for the 2019 arm {0, 0, 6000}
+  double current_limit = 2.0;       ///< A: all three are scaled down together; the amplifiers bear it for 4 s
+  double continuous_current = 1.0;  ///< A that each motor can bear without end
   double maximum_force = 5.0;       ///< N
   double stiffness_limit = 1000;    ///< N/m
-  bool guarded = true;              ///< start a guardian process where palpate-guardian is found
+  bool guarded = true;              ///< start a guardian process if palpate-guardian is found
   AxisSigns signs;                  ///< of the device frame, beside those of the motors
 };
 
@@ -55,7 +55,7 @@ Vec3 wooden_haptics_angles(const WoodenHapticsSettings& settings, const std::arr
 Vec3 wooden_haptics_position(const WoodenHapticsSettings& settings, const Vec3& angles) noexcept;
 /// N m on the three bodies for a force (N, device's frame): J^T F.
 Vec3 wooden_haptics_torques(const WoodenHapticsSettings& settings, const Vec3& angles, const Vec3& force) noexcept;
-/// Motor currents, mA, within the current limit by one common factor; zeros where a torque is not finite.
+/// Motor currents, mA, within the current limit by one common factor; zeros if a torque is not finite.
 std::array<int, 3> wooden_haptics_currents(const WoodenHapticsSettings& settings, const Vec3& torques) noexcept;
 
 /// Not open yet. open() throws std::runtime_error naming the device and what to do. The state is State::homing, without
