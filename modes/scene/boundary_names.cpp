@@ -146,6 +146,7 @@ std::vector<std::string> ranked_names(std::span<const NamedPair> boundaries, con
   names[least] = options.is_head ? "Scalp and brain surface?" : "Skin?";
   for (std::size_t b = 0; options.is_head && b < boundaries.size(); ++b) {
     if (names[b] == "Tissue 2 to 3") names[b] = "Gray and white matter?";
+    if (names[b] == "Tissue 1 to 3") names[b] = "Scalp fat or CSF?";
   }
   return names;
 }

@@ -28,9 +28,10 @@ struct NamedPair {
 /// is added. Fat beside soft tissue is "Soft tissue" too; any other wall within a tissue is "Wall in lung or foam".
 ///
 /// Other units: the values say only which tissues a boundary lies between, in order of brightness. A likely name has a
-/// question mark: "Skin?" for the boundary that rises least from the darkest tissue; in a head, "Scalp and brain
-/// surface?" for it and "Gray and white matter?" for the boundary between the next two. Numbers in names are whole, or
-/// rounded to a hundredth of `range`, the range of the scan's values, if that is less than 1.
+/// question mark: "Skin?" for the boundary that rises least from the darkest tissue; in a head (head_shape.h), "Scalp
+/// and brain surface?" for it, "Gray and white matter?" for the boundary between the next two, and "Scalp fat or CSF?"
+/// for the one from the darkest to the third. Numbers in names are whole, or rounded to a hundredth of `range`, the
+/// range of the scan's values, if that is less than 1.
 struct NamingOptions {
   bool hounsfield = false;
   bool is_head = false;

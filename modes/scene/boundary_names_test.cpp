@@ -84,7 +84,7 @@ TEST(BoundaryNames, are_at_one_site_that_sites) {
 TEST(BoundaryNames, of_a_head_are_questions_about_the_brain) {
   const std::vector<NamedPair> boundaries{{300, 800}, {10, 300}, {10, 800}};
   EXPECT_EQ(boundary_names(boundaries, {.is_head = true, .range = 1000}),
-            (Names{"Gray and white matter?", "Scalp and brain surface?", "Tissue 1 to 3"}));
+            (Names{"Gray and white matter?", "Scalp and brain surface?", "Scalp fat or CSF?"}));
 }
 
 TEST(BoundaryNames, tell_the_way_back) {

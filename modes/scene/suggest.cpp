@@ -17,12 +17,12 @@
 #include "modes/scene/defaults.h"
 #include "modes/scene/edge_sites.h"
 #include "modes/scene/faint_walls.h"
+#include "modes/scene/head_shape.h"
 #include "modes/scene/merge_boundaries.h"
 #include "modes/scene/number_text.h"
 
 #include "modes/scene/regions.h"
 #include "modes/scene/scan_noise.h"
-#include "modes/scene/starting_scene.h"
 #include "modes/scene/tissue_colors.h"
 #include "modes/scene/tissue_hills.h"
 
@@ -320,7 +320,11 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   if (sites) {
     for (FoundBoundary& boundary : suggestion.boundaries) boundary.sites = sites_of(boundary, suggestion, *sites);
   }
-  add_modes(suggestion, between_tissues, noise_gradients, {is_ct, is_of_head(*volume), range}, scale_mm);
+  double darkest_end = infinity;
+  for (std::size_t b = 0; b < between_tissues; ++b)
+    darkest_end = std::min(darkest_end, suggestion.boundaries[b].middle);
+  const bool is_head = !is_ct && between_tissues > 0 && internal::is_built_like_a_head(*volume, darkest_end);
+  add_modes(suggestion, between_tissues, noise_gradients, {is_ct, is_head, range}, scale_mm);
   suggestion.scene.description =
       "Tissues and boundaries as they were found in the scan: rename, switch and reshape them.";
   return suggestion;
