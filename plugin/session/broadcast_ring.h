@@ -1,7 +1,7 @@
 #pragma once
 
 /// A ring buffer with one writer and any number of readers, each at its own pace. Nobody waits for anybody. A reader
-/// that was overtaken is told so, and never gets a torn item.
+/// that was overtaken gets an error, and never a torn item.
 
 #include <array>
 #include <atomic>
@@ -48,7 +48,7 @@ class BroadcastRing {
     return n > capacity_ ? n - capacity_ : 0;
   }
 
-  /// Any thread: item number n, which must be below written(). False where it has been overwritten.
+  /// Any thread: item number n, which must be below written(). False if it has been overwritten.
   bool read(std::uint64_t n, T& item) const noexcept {
     std::array<std::uint64_t, words> bits;
     const Slot& slot = slots_[n & (capacity_ - 1)];

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What of a scene's limits is felt. A scene may only tighten the ceilings of the program and the device
-/// (device/safety/safety_limits.h): what asks for more is drawn down, and this is said.
+/// The limits of a scene that take effect. A scene may only tighten the ceilings of the program and the device
+/// (device/safety/safety_limits.h): a larger value is reduced to the ceiling, and a message says so.
 
 #include <vector>
 
@@ -21,7 +21,7 @@ modes::Scene suited_to(modes::Scene scene, const device::Specification& stylus);
 /// The safety filter's limits for a scene on a device: never above what the program allows and the device can do.
 device::SafetyLimits limits_for(const modes::Limits& scene, const device::Specification& device) noexcept;
 
-/// A sentence for each limit of the scene that is drawn down for this stylus. None for a stylus without motors.
+/// A sentence for each limit of the scene that is reduced for this stylus. None for a stylus without motors.
 std::vector<Text> drawn_down(const modes::Scene& scene, const device::Specification& stylus);
 
 }  // namespace palpate::plugin

@@ -24,7 +24,7 @@ class Handover {
   /// Giver: offers an item. It replaces one that was offered and not taken.
   void give(std::unique_ptr<T> item) { const std::unique_ptr<T> replaced(offered_.exchange(item.release())); }
 
-  /// Taker, wait-free: the item that is offered, which the taker now owns; null where there is none.
+  /// Taker, wait-free: the offered item, which the taker now owns; null if there is none.
   T* take() noexcept { return is_offered() ? offered_.exchange(nullptr, std::memory_order_acq_rel) : nullptr; }
   bool is_offered() const noexcept { return offered_.load(std::memory_order_acquire) != nullptr; }
 

@@ -29,7 +29,7 @@ class OpenStylus {
   }
 
   device::Specification specification() const { return stylus_->specification(); }
-  /// From now on who holds it closes it.
+  /// From now on the caller has to close it.
   std::shared_ptr<device::Stylus> release() noexcept { return std::exchange(stylus_, nullptr); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scripted path of the simulated hand: where the hand wants to be, in patient space (LPS, mm), over time (s).
+/// A scripted path of the simulated hand: the hand's target in patient space (LPS, mm), over time (s).
 
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scene made ready on a scan: its plan, and the fields and structures that the plan reads.
+/// A scene prepared for a scan: its plan, and the fields and structures that the plan reads.
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -20,25 +20,25 @@ namespace palpate::plugin {
 std::shared_ptr<const modes::Plan> plan_for(const modes::Scene& scene, const io::Volume& volume,
                                             const glm::dvec3& device_half_extent_m);
 
-/// What a plan reads of the scan itself: all but the distances from structures.
+/// The fields that a plan reads from the scan itself: all but the distances from structures.
 io::FieldSet scan_fields(const modes::Plan& plan) noexcept;
 
 /// A scene on a scan: the plan, and exactly the fields that this plan needs.
 struct PreparedScene {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
-  std::shared_ptr<const io::Volume> volume;  ///< the scan as it is felt: through the scene's filter
+  std::shared_ptr<const io::Volume> volume;  ///< the scan after the scene's filter
   std::vector<LoadedStructure> structures;   ///< those that the plan reads, in its order
 };
-/// Structures in `recorded` are put where they were then.
+/// Structures in `recorded` are placed as they were recorded.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, std::span<const RegisteredStructure> recorded = {});
 
-/// What was prepared before. `felt.volume` alone may be given too: a volume that was filtered ahead.
+/// An earlier preparation. `felt.volume` alone may be given too: a volume that was filtered ahead.
 struct Prepared {
   PreparedScene felt;
   modes::Scene scene;
-  std::vector<LoadedStructure> read_ahead{};  ///< of the scan, for a scene that comes: not read again
+  std::vector<LoadedStructure> read_ahead{};  ///< structures on the scan for a later scene: not read again
 };
 /// The same, but takes the filtered volume and the fields from `felt` if the scene still needs exactly these of this
 /// scan, and its structures on another frame of the series, too. So a scene that is being edited, and the next frame,
@@ -46,7 +46,7 @@ struct Prepared {
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, const Prepared& before,
                       std::span<const RegisteredStructure> recorded = {});
-/// Those of its structures that a registration put on the scan.
+/// The structures that a registration placed on the scan.
 std::vector<RegisteredStructure> registered_of(const PreparedScene& felt);
 
 }  // namespace palpate::plugin

@@ -14,9 +14,9 @@
 namespace palpate::plugin {
 
 struct PressPath {
-  std::vector<PathPoint> hand;          ///< where the hand wants to be
+  std::vector<PathPoint> hand;          ///< the hand's targets
   glm::dvec3 inward{0, 0, 1};           ///< unit, patient axes: the direction of pressing
-  glm::dvec3 contact_mm{0};             ///< where the first boundary was met
+  glm::dvec3 contact_mm{0};             ///< the place of first contact with a boundary
   std::vector<std::size_t> boundaries;  ///< the scene's modes met on the way in, in order
 };
 

@@ -32,7 +32,7 @@ class Servo {
   /// Returns when the last tick has ended. After that the calling thread may tick the session.
   void stop() noexcept;
 
-  /// What the system allowed.
+  /// The real-time rights that the system granted.
   const device::RealtimeStatus& realtime() const noexcept { return realtime_; }
   std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
   /// Deadlines that passed without a tick. TickRecord::missed of the next tick counts them too.

@@ -11,7 +11,7 @@ namespace palpate::plugin {
 
 class ServoClock {
  public:
-  /// What wait() came back with.
+  /// The result of wait().
   struct Deadline {
     bool due = true;            ///< false: no deadline yet; ask again
     double late_s = 0;          ///< how long after the deadline wait() returned
@@ -27,7 +27,7 @@ class ServoClock {
 /// The computer's clock, with deadlines at an even rate. A deadline does not wait for a late tick.
 class RealClock : public ServoClock {
  public:
-  /// Throws std::invalid_argument for a period (s) that no servo has.
+  /// Throws std::invalid_argument for a period (s) outside the servo's range.
   explicit RealClock(double period_s) : period_s_(period_s), metronome_(period_s) {}
 
   Deadline wait(std::uint64_t) noexcept override {

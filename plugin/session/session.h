@@ -33,7 +33,7 @@ namespace palpate::plugin {
 
 class SampledOnce;
 
-/// What is felt: a scene on a scan or on one of its frames. Immutable once it is published; shared by pointer.
+/// A scene on a scan or on one of its frames. Immutable once it is published; shared by pointer.
 struct Snapshot {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
@@ -56,7 +56,7 @@ class Session {
           device::Stylus& stylus, const device::SafetyLimits& limits);
   /// The same. The ring gets every tick record; it may be null, and must outlive the session.
   Session(const Snapshot& first, std::shared_ptr<device::Stylus> stylus, TickRing* ring = nullptr);
-  /// The same of a stylus that is open.
+  /// The same with a stylus that is already open.
   Session(const Snapshot& first, OpenStylus stylus, TickRing* ring);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -67,7 +67,7 @@ class Session {
   const TickRecord& tick(const Beat& beat) noexcept;
   /// The same, in even steps of the first stylus' rate, with a heartbeat in every tick.
   const TickRecord& tick() noexcept;
-  /// What each primitive did in the last tick's last sub-step.
+  /// The force of each primitive in the last tick's last sub-step.
   std::span<const PrimitiveRecord> shares() const noexcept { return {shares_.data(), tick_.share_count}; }
   device::Fault fault() const noexcept { return safety_.fault; }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a surface takes from where the proxy is, before it lets the proxy through.
+/// The strength of a surface ahead of the proxy, before it lets the proxy through.
 
 #include <glm/vec3.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace palpate::plugin {
 
-/// N: what the mode, a surface, takes of a push along `inward` (unit, patient space) at a sample; 0 where it pushes
+/// N: how much of a push along `inward` (unit, patient space) the mode, a surface, resists at a sample; 0 if it pushes
 /// that way itself, as on the far side of a plate.
 double strength_against_n(const modes::ActiveMode& mode, const io::Sample& sample, const glm::dvec3& inward);
 

@@ -28,13 +28,13 @@ struct StrokePoint {
   const solver::SolverType* solver = nullptr;
   double error_bound_m = 0;
   std::optional<std::size_t> boundary;             ///< the scene's mode that pushes most, if any does
-  std::optional<solver::PrimitiveType> primitive;  ///< what it pushes with; set if boundary is
+  std::optional<solver::PrimitiveType> primitive;  ///< the type of primitive that it pushes with; set if boundary is
 };
 
 /// What is read beside the forces: all of StrokePoint, or neither values nor distances.
 enum class StrokeDetail { all, forces_alone };
 
-/// Throws std::runtime_error where the stroke has no length or more than 10 000 000 ticks.
+/// Throws std::runtime_error if the stroke has no length or more than 10 000 000 ticks.
 std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSource& source, const glm::dvec3& from_mm,
                                     const glm::dvec3& to_mm, double speed_mm_per_s,
                                     StrokeDetail detail = StrokeDetail::all);
@@ -52,13 +52,13 @@ struct Contact {
 /// N: a boundary that pushes less is not reported.
 constexpr double met_n = 0.05;
 
-/// The surfaces met along a stroke, in order: wherever a surface mode pushes with more than threshold_n.
+/// The surfaces met along a stroke, in order: each stretch on which a surface mode pushes with more than threshold_n.
 std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n);
 /// Fills strength_n and full_strength_n from what the boundary's mode reads at the proxy, and on from where it was last
 /// held (strength_ahead_n()).
 void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> stroke, const modes::Plan& plan,
                    const io::FieldSource& source);
-/// "; 0.31 of its 2.5 N: thin or faint there" where a boundary takes less than three quarters of its full strength.
+/// "; 0.31 of its 2.5 N: thin or faint there" if a boundary takes less than three quarters of its full strength.
 std::string strength_to_text(const Contact& contact);
 std::string strength_to_text(double strength_n, double full_strength_n);
 

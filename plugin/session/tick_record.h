@@ -9,25 +9,25 @@
 
 namespace palpate::plugin {
 
-/// Where a tick's time went, in this order. `observe` makes the record itself; it samples the proxy's new place for
+/// The parts of a tick's time, in this order. `observe` makes the record itself; it samples the proxy's new place for
 /// this tick and the next, so that `sample` is short.
 enum class Stage : std::uint8_t { read, map, sample, modes, solve, filter, write, observe };
 constexpr std::size_t stage_count = 8;
-/// The most structures of a scene whose distances a tick tells.
+/// The most structures of a scene whose distances a tick records.
 constexpr std::size_t distance_count = 8;
 constexpr const char* stage_names[stage_count] = {"read",  "map",    "sample", "modes",
                                                   "solve", "filter", "write",  "observe"};
 
-/// What one primitive did to the proxy. Device frame.
+/// The effect of one primitive on the proxy. Device frame.
 struct PrimitiveRecord {
   std::uint64_t tick = 0;  ///< index of the tick
-  std::uint32_t mode = 0;  ///< index into the scene's modes; plus modes::of_scene_left where that scene is being left
+  std::uint32_t mode = 0;  ///< index into the scene's modes; plus modes::of_scene_left if that scene is being left
   std::uint32_t type = 0;  ///< solver::PrimitiveType
   double strength_n = 0;   ///< N
   double force_n[3] = {};  ///< N, on the proxy
 };
 
-/// What was asked of the session at a tick: bits of TickRecord::commands.
+/// The commands to the session at a tick: bits of TickRecord::commands.
 namespace command {
 constexpr std::uint32_t arm = 1, disarm = 2, clear_fault = 4, change_stylus = 8;
 }
@@ -42,11 +42,11 @@ struct TickRecord {
   double probe_m[3] = {};
   double proxy_m[3] = {};
   double force_n[3] = {};    ///< of the coupling, before damping and the safety filter
-  double sent_n[3] = {};     ///< what the device was fed
+  double sent_n[3] = {};     ///< the force sent to the device
   double value = 0;          ///< of the scan at the proxy; NaN outside
   double residual_n = 0;     ///< |equation (7)| with each primitive's share, which is defined on a constraint too
   double error_bound_m = 0;  ///< |proxy - exact proxy| is at most this
-  double change_part = 1;    ///< how far the change to this scene has come; 1: it is there
+  double change_part = 1;    ///< how far the change to this scene has come; 1: it is complete
   /// Of the proxy, from each structure that the scene reads (SceneRecord::structures), positive inside; NaN after the
   /// last of them.
   double distance_mm[distance_count] = {};
@@ -63,7 +63,7 @@ struct TickRecord {
   std::uint32_t stylus_state = 0;
   std::uint32_t stylus_epoch = 0;  ///< counts the styluses held in this session
   std::uint32_t commands = 0;      ///< bits of namespace command that took effect in this tick
-  // The rest depends on the clock or on other threads. It never affects what is felt.
+  // The rest depends on the clock or on other threads. No force depends on it.
   std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed at the sample
   std::uint32_t missed = 0;      ///< deadlines that went by without a tick since the tick before
   std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
