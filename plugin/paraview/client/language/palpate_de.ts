@@ -80,7 +80,7 @@
     </message>
     <message>
         <source>Echo</source>
-        <translation>Echo</translation>
+        <translation>Prüfen</translation>
     </message>
     <message>
         <source>Whether the archive answers and knows us (C-ECHO)</source>
@@ -151,11 +151,11 @@
     </message>
     <message>
         <source>both</source>
-        <translation>beides</translation>
+        <translation>beide</translation>
     </message>
     <message>
         <source>The direction in which the stylus is resisted: into the denser tissue, out of it, or both</source>
-        <translation>In welcher Richtung der Stift Widerstand findet: hinein in das dichtere Gewebe, hinaus, oder beides</translation>
+        <translation>In welche Richtung die Grenze dem Stift widersteht: in das dichtere Gewebe hinein, hinaus oder beides</translation>
     </message>
     <message>
         <source>Direction of %1</source>
@@ -254,7 +254,7 @@
     </message>
     <message>
         <source>Shows the marks, and the distances and angles between them</source>
-        <translation>Zeigt die Marken, und die Abstände und Winkel zwischen ihnen</translation>
+        <translation>Zeigt die Marken und die Abstände und Winkel zwischen ihnen</translation>
     </message>
     <message>
         <source>Advanced</source>
@@ -294,7 +294,7 @@
     </message>
     <message>
         <source>Connects the stylus that is chosen in the panel</source>
-        <translation>Verbindet den Stift, der im Feld gewählt ist</translation>
+        <translation>Verbindet den Stift, der im Bedienfeld gewählt ist</translation>
     </message>
     <message>
         <source>Marks (%1)</source>
@@ -344,7 +344,7 @@
     </message>
     <message>
         <source>a small part of its own</source>
-        <translation>ein kleines Teil für sich</translation>
+        <translation>ein kleiner, getrennter Teil</translation>
     </message>
     <message>
         <source>a small hole</source>
@@ -408,7 +408,7 @@
     </message>
     <message>
         <source>Undo</source>
-        <translation>Zurücknehmen</translation>
+        <translation>Rückgängig</translation>
     </message>
     <message>
         <source>Takes back the last correction</source>
@@ -476,27 +476,27 @@
     </message>
     <message>
         <source>The stylus is held in the axial slice</source>
-        <translation>Der Stift wird im axialen Schnitt gehalten</translation>
+        <translation>Der Stift wird in der axialen Schicht gehalten</translation>
     </message>
     <message>
         <source>The stylus is held in the coronal slice</source>
-        <translation>Der Stift wird im koronalen Schnitt gehalten</translation>
+        <translation>Der Stift wird in der koronalen Schicht gehalten</translation>
     </message>
     <message>
         <source>The stylus is held in the sagittal slice</source>
-        <translation>Der Stift wird im sagittalen Schnitt gehalten</translation>
+        <translation>Der Stift wird in der sagittalen Schicht gehalten</translation>
     </message>
     <message>
         <source>Drag on a slice along the right edge: the outline goes there. Or hold M while the stylus feels it. In the volume view drag over the outline: it goes to the scan&apos;s own edge there.</source>
-        <translation>Auf einem Schnitt den richtigen Rand entlang ziehen: der Umriss geht dorthin. Oder M halten, während der Stift ihn fühlt. In der Volumenansicht über den Umriss ziehen: er geht dort zur Kante der Aufnahme.</translation>
+        <translation>In einer Schicht den richtigen Rand nachziehen: Der Umriss folgt. Oder M halten, während der Stift den Rand fühlt. In der Volumenansicht über den Umriss ziehen: Er geht dort zur Kante der Aufnahme.</translation>
     </message>
     <message>
         <source>The stylus stays in the slice of the marked view while it traces. F held in a view frees it.</source>
-        <translation>Der Stift bleibt beim Nachziehen im Schnitt der markierten Ansicht. F, in einer Ansicht gehalten, gibt ihn frei.</translation>
+        <translation>Der Stift bleibt beim Nachziehen in der Schicht der markierten Ansicht. F in einer Ansicht halten, um ihn freizugeben.</translation>
     </message>
     <message>
         <source>Hold the stylus in the slice</source>
-        <translation>Den Stift im Schnitt halten</translation>
+        <translation>Den Stift in der Schicht halten</translation>
     </message>
     <message>
         <source>Free while F is held</source>
@@ -515,7 +515,7 @@
     </message>
     <message>
         <source>Snap to the scan&apos;s edge</source>
-        <translation>An der Kante der Aufnahme halten</translation>
+        <translation>An der Kante der Aufnahme einrasten</translation>
     </message>
     <message>
         <source>Trace</source>
@@ -543,11 +543,11 @@
     </message>
     <message>
         <source>Hold in the slice</source>
-        <translation>Im Schnitt halten</translation>
+        <translation>In der Schicht halten</translation>
     </message>
     <message>
         <source>Hold in no slice</source>
-        <translation>In keinem Schnitt halten</translation>
+        <translation>In keiner Schicht halten</translation>
     </message>
 </context>
 <context>
@@ -565,11 +565,11 @@
     <name>CurveProfile</name>
     <message>
         <source>The force along a line, as it would be felt now; dashed: before the curve was dragged. Rest with the pointer on a boundary in a slice, touch one, or pick two points in Force profile.</source>
-        <translation>Die Kraft längs einer Linie, wie sie jetzt zu fühlen wäre; gestrichelt: bevor die Kurve gezogen wurde. Mit dem Zeiger in einer Schicht auf einer Grenze ruhen, eine berühren, oder im Kraftprofil zwei Punkte wählen.</translation>
+        <translation>Die Kraft längs einer Linie, wie sie jetzt zu fühlen wäre; gestrichelt: bevor die Kurve gezogen wurde. Den Zeiger in einer Schicht auf einer Grenze ruhen lassen, eine berühren oder im Kraftprofil zwei Punkte wählen.</translation>
     </message>
     <message>
         <source>Rest with the pointer on a boundary in a slice: the force across it is drawn here.</source>
-        <translation>Mit dem Zeiger in einer Schicht auf einer Grenze ruhen: Die Kraft quer dazu wird hier gezeichnet.</translation>
+        <translation>Den Zeiger in einer Schicht auf einer Grenze ruhen lassen: Die Kraft quer dazu wird hier gezeichnet.</translation>
     </message>
     <message>
         <source>%1 up to %2 N</source>
@@ -577,7 +577,7 @@
     </message>
     <message>
         <source>no boundary is met</source>
-        <translation>keine Grenze wird getroffen</translation>
+        <translation>es wird keine Grenze getroffen</translation>
     </message>
     <message>
         <source>Along the chosen stroke</source>
@@ -589,7 +589,7 @@
     </message>
     <message>
         <source>Across the place pointed at</source>
-        <translation>Quer zur gezeigten Stelle</translation>
+        <translation>Quer zur Stelle unter dem Zeiger</translation>
     </message>
     <message>
         <source>%1: %2.</source>
@@ -678,7 +678,7 @@
     </message>
     <message>
         <source>Reduces noise, which is felt as roughness. The stylus feels the filtered values. Bilateral and non-local means keep edges where they are; a Gaussian rounds them.</source>
-        <translation>Verringert Rauschen, das als Rauheit zu fühlen ist. Der Stift fühlt die gefilterten Werte. Bilateral und Non-local means lassen Kanten, wo sie sind; ein Gauß-Filter rundet sie.</translation>
+        <translation>Verringert Rauschen, das als Rauheit zu fühlen ist. Der Stift fühlt die gefilterten Werte. Bilateral und nichtlokale Mittelung lassen Kanten, wo sie sind; ein Gauß-Filter rundet sie.</translation>
     </message>
     <message>
         <source>None</source>
@@ -698,7 +698,7 @@
     </message>
     <message>
         <source>Non-local means</source>
-        <translation>Non-local means</translation>
+        <translation>Nichtlokale Mittelung</translation>
     </message>
     <message>
         <source>Show</source>
@@ -726,7 +726,7 @@
     </message>
     <message>
         <source>%1 (shown without it)</source>
-        <translation>%1 (ohne ihn gezeigt)</translation>
+        <translation>%1 (ungefiltert gezeigt)</translation>
     </message>
     <message>
         <source>Edge of the square in the slice</source>
@@ -745,7 +745,7 @@
     <name>Footer</name>
     <message>
         <source>Value of the scan and tissue at the proxy</source>
-        <translation>Wert der Aufnahme und Gewebe an der Spitze</translation>
+        <translation>Wert der Aufnahme und Gewebe am Proxy</translation>
     </message>
     <message>
         <source>Force on the stylus</source>
@@ -753,15 +753,15 @@
     </message>
     <message>
         <source>Distance of the stylus behind the boundary that holds it, in mm of the patient</source>
-        <translation>Abstand des Stifts hinter der Grenze, die ihn hält, in mm im Patienten</translation>
+        <translation>Wie weit der Stift hinter der Grenze ist, die ihn hält, in mm im Patienten</translation>
     </message>
     <message>
         <source>Scan, frame and scene that the stylus feels</source>
-        <translation>Aufnahme, Phase und Szene, die der Stift fühlt</translation>
+        <translation>Aufnahme, Bild und Szene, die der Stift fühlt</translation>
     </message>
     <message>
         <source>No scan is open.</source>
-        <translation>Keine Aufnahme ist geöffnet.</translation>
+        <translation>Es ist keine Aufnahme geöffnet.</translation>
     </message>
     <message>
         <source>Technical</source>
@@ -769,7 +769,7 @@
     </message>
     <message>
         <source>For developers: solver, servo, the stylus&apos; own limits, and the parts of the scene that are left out</source>
-        <translation>Für Entwickler: Löser, Regler, die Grenzen des Stifts, und welche Teile der Szene fehlen</translation>
+        <translation>Für Entwickler: Löser, Takt der Kraft, die Grenzen des Stifts und welche Teile der Szene fehlen</translation>
     </message>
     <message>
         <source>Record…</source>
@@ -793,7 +793,7 @@
     </message>
     <message>
         <source>Marks the point that the stylus touches. Keep it pressed while the stylus moves to mark a path. The stylus&apos; second button and the key M in a view do the same.</source>
-        <translation>Markiert den Punkt, den der Stift berührt. Gedrückt gehalten, während er sich bewegt, einen Pfad. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
+        <translation>Markiert den Punkt, den der Stift berührt. Gedrückt halten, während er sich bewegt, um einen Pfad zu markieren. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
     </message>
     <message>
         <source>Correct  (M)</source>
@@ -801,7 +801,7 @@
     </message>
     <message>
         <source>Corrects the outline with the chosen tool at the point that the stylus touches. Keep it pressed while the stylus moves along the right edge. The stylus&apos; second button and the key M in a view do the same.</source>
-        <translation>Korrigiert den Umriss mit dem gewählten Werkzeug an dem Punkt, den der Stift berührt. Gedrückt halten, während er sich an der richtigen Kante entlang bewegt. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
+        <translation>Korrigiert den Umriss mit dem gewählten Werkzeug an dem Punkt, den der Stift berührt. Gedrückt halten, während er sich den richtigen Rand entlang bewegt. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
     </message>
     <message>
         <source>Stop recording</source>
@@ -825,7 +825,7 @@
     </message>
     <message>
         <source>⚠ %1: within its margin</source>
-        <translation>⚠ %1: im Abstand</translation>
+        <translation>⚠ %1: im Sicherheitsabstand</translation>
     </message>
     <message>
         <source>no stylus</source>
@@ -845,7 +845,7 @@
     </message>
     <message>
         <source>%1 behind the proxy</source>
-        <translation>%1 hinter der Spitze</translation>
+        <translation>%1 hinter dem Proxy</translation>
     </message>
     <message>
         <source>%1 past %2</source>
@@ -857,15 +857,15 @@
     </message>
     <message>
         <source>Distance to the nearest structure of the scene; in color within its margin</source>
-        <translation>Abstand zur nächsten Struktur der Szene; farbig innerhalb ihres Saums</translation>
+        <translation>Abstand zur nächsten Struktur der Szene; farbig in ihrem Sicherheitsabstand</translation>
     </message>
     <message>
         <source>Which solver balanced the forces, and how far from the exact balance the proxy can be</source>
-        <translation>Welcher Löser die Kräfte ausglich und wie weit der Stellvertreter vom genauen Gleichgewicht entfernt sein kann</translation>
+        <translation>Welcher Löser die Kräfte ausglich und wie weit der Proxy vom genauen Gleichgewicht entfernt sein kann</translation>
     </message>
     <message>
         <source>Median time of a tick of the servo, and deadlines that it missed</source>
-        <translation>Mittlere Dauer eines Regeltakts und versäumte Termine</translation>
+        <translation>Median der Dauer eines Takts und versäumte Takte</translation>
     </message>
     <message>
         <source>%1 solver, error below %2 mm</source>
@@ -899,19 +899,19 @@
     <name>FrameRow</name>
     <message>
         <source>First frame</source>
-        <translation>Erste Phase</translation>
+        <translation>Erstes Bild</translation>
     </message>
     <message>
         <source>One frame back</source>
-        <translation>Eine Phase zurück</translation>
+        <translation>Ein Bild zurück</translation>
     </message>
     <message>
         <source>One frame on</source>
-        <translation>Eine Phase weiter</translation>
+        <translation>Ein Bild weiter</translation>
     </message>
     <message>
         <source>Last frame</source>
-        <translation>Letzte Phase</translation>
+        <translation>Letztes Bild</translation>
     </message>
     <message>
         <source>The frame that is shown and felt: the same as ParaView&apos;s time</source>
@@ -992,7 +992,7 @@
     </message>
     <message>
         <source>Shows first what would be sent to an archive, and for which patient</source>
-        <translation>Zeigt erst, was an ein Archiv gesendet würde, und für welchen Patienten</translation>
+        <translation>Zeigt erst, was an ein Archiv gesendet würde und für welchen Patienten</translation>
     </message>
     <message>
         <source>no boundary felt</source>
@@ -1120,11 +1120,11 @@
     </message>
     <message>
         <source>leaving (towards lower values)</source>
-        <translation>beim Austreten (zu tieferen Werten)</translation>
+        <translation>beim Austreten (zu niedrigeren Werten)</translation>
     </message>
     <message>
         <source>both</source>
-        <translation>beides</translation>
+        <translation>in beide Richtungen</translation>
     </message>
     <message>
         <source>Side</source>
@@ -1148,11 +1148,11 @@
     </message>
     <message>
         <source>the vector field</source>
-        <translation>des Vektorfelds</translation>
+        <translation>Vektorfeld</translation>
     </message>
     <message>
         <source>the gradient</source>
-        <translation>des Gradienten</translation>
+        <translation>Gradient</translation>
     </message>
     <message>
         <source>Shape</source>
@@ -1172,7 +1172,7 @@
     </message>
     <message>
         <source>Put it where the proxy is</source>
-        <translation>An die Spitze setzen</translation>
+        <translation>An den Proxy setzen</translation>
     </message>
     <message>
         <source>Place</source>
@@ -1317,7 +1317,7 @@
     </message>
     <message>
         <source>No scan is open.</source>
-        <translation>Keine Aufnahme ist geöffnet.</translation>
+        <translation>Es ist keine Aufnahme geöffnet.</translation>
     </message>
     <message>
         <source>Open: %1. Scene: %2.</source>
@@ -1337,7 +1337,7 @@
     </message>
     <message>
         <source>no such folder, or no right to it</source>
-        <translation>kein solcher Ordner, oder kein Recht, ihn zu lesen</translation>
+        <translation>kein solcher Ordner oder keine Berechtigung, ihn zu lesen</translation>
     </message>
     <message>
         <source>DICOM contours, RTSTRUCT (*.dcm)</source>
@@ -1375,7 +1375,7 @@
     <name>UnsavedGuard</name>
     <message>
         <source>Another scan takes the place of this one.</source>
-        <translation>Eine andere Aufnahme tritt an die Stelle dieser.</translation>
+        <translation>Eine andere Aufnahme ersetzt diese.</translation>
     </message>
     <message>
         <source>ParaView is about to end.</source>
@@ -1395,7 +1395,7 @@
     </message>
     <message>
         <source>no such folder, or no right to it</source>
-        <translation>kein solcher Ordner, oder kein Recht, ihn zu lesen</translation>
+        <translation>kein solcher Ordner oder keine Berechtigung, ihn zu lesen</translation>
     </message>
 </context>
 <context>
@@ -1406,7 +1406,7 @@
     </message>
     <message>
         <source>In the slices or on what the 3D view shows: drag from one to the other, or click on both.</source>
-        <translation>In den Schichten oder auf dem, was die 3D-Ansicht zeigt: vom einen zum anderen ziehen, oder auf beide klicken.</translation>
+        <translation>In den Schichten oder auf dem, was die 3D-Ansicht zeigt: vom einen zum anderen ziehen oder auf beide klicken.</translation>
     </message>
     <message>
         <source> mm/s</source>
@@ -1458,7 +1458,7 @@
     </message>
     <message>
         <source>The stroke would take %1 s: choose nearer points or a higher speed, so that it takes at most %2 s.</source>
-        <translation>Der Zug würde %1 s dauern: wählen Sie nähere Punkte oder eine höhere Geschwindigkeit, damit er höchstens %2 s dauert.</translation>
+        <translation>Der Strich würde %1 s dauern: nähere Punkte oder eine höhere Geschwindigkeit wählen, damit er höchstens %2 s dauert.</translation>
     </message>
 </context>
 <context>
@@ -1512,7 +1512,7 @@
     </message>
     <message>
         <source>Compares with another recording of the same stroke, place by place, at any speed</source>
-        <translation>Vergleicht mit einer anderen Aufzeichnung desselben Zuges, Ort für Ort, bei beliebiger Geschwindigkeit</translation>
+        <translation>Vergleicht mit einer anderen Aufzeichnung desselben Strichs, Ort für Ort, bei beliebiger Geschwindigkeit</translation>
     </message>
     <message>
         <source>Disconnect the stylus to play: the views show what it feels</source>
@@ -1523,11 +1523,11 @@
     <name>SampleScan</name>
     <message>
         <source>Try the sample head</source>
-        <translation>Den Beispielkopf versuchen</translation>
+        <translation>Beispielkopf ausprobieren</translation>
     </message>
     <message>
         <source>Try a phantom</source>
-        <translation>Ein Phantom versuchen</translation>
+        <translation>Phantom ausprobieren</translation>
     </message>
 </context>
 <context>
@@ -1561,7 +1561,7 @@
     <name>ScanHandle</name>
     <message>
         <source>frame</source>
-        <translation>Phase</translation>
+        <translation>Bild</translation>
     </message>
     <message>
         <source>%1 %2 of %3</source>
@@ -1630,7 +1630,7 @@
     </message>
     <message>
         <source>A scan in NIfTI, NRRD or MetaImage, or a zipped study. It may also be dropped here.</source>
-        <translation>Eine Aufnahme in NIfTI, NRRD oder MetaImage, oder eine gezippte Studie. Sie kann auch hier abgelegt werden.</translation>
+        <translation>Eine Aufnahme in NIfTI, NRRD oder MetaImage oder eine gezippte Studie. Sie kann auch hier abgelegt werden.</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -1694,7 +1694,7 @@
     </message>
     <message>
         <source>Angio</source>
-        <translation>Angio</translation>
+        <translation>Angiographie</translation>
     </message>
     <message>
         <source>Stroke</source>
@@ -1741,11 +1741,11 @@
     <name>SendDialog</name>
     <message>
         <source>To</source>
-        <translation>Bis</translation>
+        <translation>An</translation>
     </message>
     <message>
         <source>Send marks</source>
-        <translation>Markierungen senden</translation>
+        <translation>Marken senden</translation>
     </message>
     <message>
         <source>Patient</source>
@@ -1761,7 +1761,7 @@
     </message>
     <message>
         <source>A report (SR) of %1 marks, %2 distances and %3 paths, and %4 pictures of the marks</source>
-        <translation>Ein Bericht (SR) mit %1 Markierungen, %2 Abständen und %3 Wegen, und %4 Bilder der Markierungen</translation>
+        <translation>Ein Bericht (SR) mit %1 Marken, %2 Abständen und %3 Pfaden und %4 Bilder der Marken</translation>
     </message>
     <message>
         <source>Report</source>
@@ -1796,7 +1796,7 @@
     </message>
     <message>
         <source>★ Best to feel first: %1</source>
-        <translation>★ Zuerst zu fühlen: %1</translation>
+        <translation>★ Am besten zuerst fühlen: %1</translation>
     </message>
     <message>
         <source>Cannot be felt: %1</source>
@@ -1807,7 +1807,7 @@
     <name>SeriesList</name>
     <message>
         <source>★ Best to feel first: %1</source>
-        <translation>★ Zuerst zu fühlen: %1</translation>
+        <translation>★ Am besten zuerst fühlen: %1</translation>
     </message>
     <message>
         <source>%1
@@ -1840,7 +1840,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>%1 frames</source>
-        <translation>%1 Phasen</translation>
+        <translation>%1 Bilder</translation>
     </message>
     <message>
         <source>not a volume</source>
@@ -1862,7 +1862,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Off: no stylus is connected</source>
-        <translation>Aus: kein Stift ist verbunden</translation>
+        <translation>Aus: es ist kein Stift verbunden</translation>
     </message>
     <message>
         <source>Stopped: %1</source>
@@ -1878,11 +1878,11 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Ready: homing, move the stylus as its maker says</source>
-        <translation>Bereit: Nullfahrt, den Stift wie vom Hersteller beschrieben bewegen</translation>
+        <translation>Bereit: Referenzfahrt, den Stift wie vom Hersteller beschrieben bewegen</translation>
     </message>
     <message>
         <source>Ready: to home it, %1</source>
-        <translation>Bereit: zur Nullfahrt %1</translation>
+        <translation>Bereit: zur Referenzfahrt %1</translation>
     </message>
     <message>
         <source>Stopped: the stylus does not answer. Check its plug and power, then connect it again</source>
@@ -1890,11 +1890,11 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Feeling: forces are on</source>
-        <translation>Fühlt: Kräfte sind an</translation>
+        <translation>Fühlen: die Kraft ist an</translation>
     </message>
     <message>
         <source>Feeling: forces are coming up</source>
-        <translation>Fühlt: Kräfte kommen</translation>
+        <translation>Fühlen: die Kraft steigt an</translation>
     </message>
     <message>
         <source>Ready: no force. Feel turns it on</source>
@@ -1940,7 +1940,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>or a scan in NIfTI, NRRD or MetaImage, or a zipped study</source>
-        <translation>oder eine Aufnahme in NIfTI, NRRD oder MetaImage, oder eine gezippte Studie</translation>
+        <translation>oder eine Aufnahme in NIfTI, NRRD oder MetaImage oder eine gezippte Studie</translation>
     </message>
     <message>
         <source>Open a DICOM folder…</source>
@@ -1979,7 +1979,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>%1 ml, as it was drawn %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
-        <translation>%1 ml, gezeichnet %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Rand ging höchstens %5 mm.</translation>
+        <translation>%1 ml, gezeichnet %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Umriss wurde um höchstens %5 mm verschoben.</translation>
     </message>
     <message>
         <source>No structures were found there (DICOM SEG or RTSTRUCT).</source>
@@ -2027,15 +2027,15 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Keep out</source>
-        <translation>Fernhalten</translation>
+        <translation>Sperren</translation>
     </message>
     <message>
         <source>The stylus is pushed back as soon as it is in a margin around the structure</source>
-        <translation>Der Stift wird zurückgedrückt, sobald er in einem Abstand um die Struktur ist</translation>
+        <translation>Der Stift wird zurückgedrückt, sobald er der Struktur näher als der Sicherheitsabstand kommt</translation>
     </message>
     <message>
         <source>Keep out of %1</source>
-        <translation>Fernhalten von %1</translation>
+        <translation>%1 sperren</translation>
     </message>
     <message>
         <source> mm</source>
@@ -2071,7 +2071,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>The margin of a keep-out; the footer warns inside it</source>
-        <translation>Der Saum einer Sperre; die Fußzeile warnt darin</translation>
+        <translation>Der Sicherheitsabstand einer Sperre; die Fußzeile warnt, solange der Stift darin ist</translation>
     </message>
     <message>
         <source>Structures (*.dcm *);;All files (*)</source>
@@ -2083,11 +2083,11 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Lists the doubtful places of its outline and lets you correct it: see the guide</source>
-        <translation>Listet die zweifelhaften Stellen ihres Umrisses und lässt ihn korrigieren: siehe die Anleitung</translation>
+        <translation>Listet die zweifelhaften Stellen ihres Umrisses und ermöglicht, ihn zu korrigieren (siehe Anleitung)</translation>
     </message>
     <message>
         <source>%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
-        <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Rand ging höchstens %5 mm.</translation>
+        <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Umriss wurde um höchstens %5 mm verschoben.</translation>
     </message>
     <message>
         <source>It reaches %1 mm into %2.</source>
@@ -2095,7 +2095,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Margin to %1: %2 mm. Its keep-out begins at %3 mm.</source>
-        <translation>Abstand zu %1: %2 mm. Das Fernhalten beginnt bei %3 mm.</translation>
+        <translation>Abstand zu %1: %2 mm. Die Sperre beginnt bei %3 mm.</translation>
     </message>
 </context>
 <context>
@@ -2158,7 +2158,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>While it is pressed, the hand moves and the stylus stays where it is in the patient: move the hand to a better place, or turn the view. The stylus&apos; first button does the same.</source>
-        <translation>Solange gedrückt, bewegt sich die Hand, und der Stift bleibt im Patienten, wo er ist: die Hand besser hinlegen oder die Ansicht drehen. Die erste Taste des Stifts tut dasselbe.</translation>
+        <translation>Solange gedrückt, bewegt sich die Hand, und der Stift bleibt im Patienten, wo er ist: die Hand bequemer legen oder die Ansicht drehen. Die erste Taste des Stifts tut dasselbe.</translation>
     </message>
     <message>
         <source>Align the stylus with the view after clutching</source>
@@ -2166,7 +2166,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>After clutching, moving the hand to the right moves the stylus to the right in the 3D view.</source>
-        <translation>Nach dem Auskuppeln bewegt eine Bewegung der Hand nach rechts den Stift in der 3D-Ansicht nach rechts.</translation>
+        <translation>Nach dem Auskuppeln führt eine Bewegung der Hand nach rechts den Stift in der 3D-Ansicht nach rechts.</translation>
     </message>
     <message>
         <source>Slices follow</source>
@@ -2174,7 +2174,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>The slices through the proxy are shown as it moves.</source>
-        <translation>Die Schichten durch die Spitze werden gezeigt, während sie sich bewegt.</translation>
+        <translation>Die Schichten durch den Proxy werden gezeigt, während er sich bewegt.</translation>
     </message>
     <message>
         <source>Go to stylus</source>
@@ -2194,7 +2194,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Research software, not a medical device: it must not guide a diagnosis or a treatment. Esc takes the force away at any time.</source>
-        <translation>Forschungssoftware, kein Medizinprodukt: Sie darf keine Diagnose oder Behandlung leiten. Esc nimmt die Kraft jederzeit weg.</translation>
+        <translation>Forschungssoftware, kein Medizinprodukt: nicht für Diagnose oder Behandlung verwenden. Esc nimmt die Kraft jederzeit weg.</translation>
     </message>
     <message>
         <source>Disconnect</source>
@@ -2226,7 +2226,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>%1 mm of patient per mm of hand</source>
-        <translation>%1 mm Patient pro mm Hand</translation>
+        <translation>1 mm der Hand sind %1 mm im Patienten</translation>
     </message>
     <message>
         <source>no scan yet</source>
@@ -2296,7 +2296,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Restored with the state</source>
-        <translation>Mit dem Zustand wiederhergestellt</translation>
+        <translation>Aus der Zustandsdatei wiederhergestellt</translation>
     </message>
     <message>
         <source>%1, edited</source>
@@ -2339,19 +2339,19 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>CT skin</source>
-        <translation>CT Haut</translation>
+        <translation>Haut (CT)</translation>
     </message>
     <message>
         <source>CT bone</source>
-        <translation>CT Knochen</translation>
+        <translation>Knochen (CT)</translation>
     </message>
     <message>
         <source>CT lung</source>
-        <translation>CT Lunge</translation>
+        <translation>Lunge (CT)</translation>
     </message>
     <message>
         <source>CT vessels</source>
-        <translation>CT Gefäße</translation>
+        <translation>Gefäße (CT)</translation>
     </message>
     <message>
         <source>MR</source>
@@ -2359,7 +2359,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>MR vessels</source>
-        <translation>MR Gefäße</translation>
+        <translation>Gefäße (MR)</translation>
     </message>
 </context>
 <context>
@@ -2426,7 +2426,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Echo</source>
-        <translation>Echo</translation>
+        <translation>Prüfen</translation>
     </message>
     <message>
         <source>Whether it answers and knows us (C-ECHO)</source>
@@ -2511,7 +2511,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>3D Slicer on this computer sees stylus, force, marks and surfaces, and sends scenes, marks and outlines. It can neither turn the force on nor raise a limit.</source>
-        <translation>3D Slicer auf diesem Rechner sieht Stift, Kraft, Marken und Oberflächen und sendet Szenen, Marken und Umrisse. Die Kraft einschalten oder eine Grenze erhöhen kann es nicht.</translation>
+        <translation>3D Slicer auf diesem Rechner sieht Stift, Kraft, Marken und Oberflächen und sendet Szenen, Marken und Umrisse. Es kann weder die Kraft einschalten noch eine Grenze erhöhen.</translation>
     </message>
     <message>
         <source>The port that 3D Slicer connects to (OpenIGTLink)</source>
@@ -2557,11 +2557,11 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>1 mark</source>
-        <translation>1 Markierung</translation>
+        <translation>1 Marke</translation>
     </message>
     <message>
         <source>%1 marks</source>
-        <translation>%1 Markierungen</translation>
+        <translation>%1 Marken</translation>
     </message>
     <message>
         <source>Not saved</source>
@@ -2573,7 +2573,7 @@ ID %2, Studie vom %3</translation>
     </message>
     <message>
         <source>Save writes all that is open to a state file. File &gt; Load State opens it again.</source>
-        <translation>Speichern schreibt alles, was offen ist, in eine Zustandsdatei. File &gt; Load State öffnet sie wieder.</translation>
+        <translation>Speichern schreibt alles, was offen ist, in eine Zustandsdatei. Im Menü File &gt; Load State wird sie wieder geöffnet.</translation>
     </message>
     <message>
         <source>Save…</source>

@@ -47,20 +47,20 @@ void the_panel_speaks_german() {
   expect(corner_text("Axial").contains("Axial") && corner_text("Koronal").contains("Koronal"), "so are the views");
   const auto state_is = [](const char* words) { return label("palpateState") == QString::fromUtf8(words); };
   wait_for(
-      "the state line is German", [&] { return state_is("Aus: kein Stift ist verbunden"); }, 20);
+      "the state line is German", [&] { return state_is("Aus: es ist kein Stift verbunden"); }, 20);
   click("palpateConnect");
   wait_for(
       "and what it says of a stylus", [&] { return state_is("Bereit: keine Kraft. Fühlen schaltet sie ein"); }, 20);
   expect_words("palpateConnect", "Trennen");
   click("palpateFeel");
   wait_for(
-      "and of forces", [&] { return state_is("Fühlt: Kräfte sind an"); }, 20);
+      "and of forces", [&] { return state_is("Fühlen: die Kraft ist an"); }, 20);
   expect_in_sight("palpateToolbarRelease");
   expect_in_sight("palpateRelease");
   save_screen("german");
   click("palpateRelease");
   wait_for(
-      "nothing is felt", [&] { return !state_is("Fühlt: Kräfte sind an"); }, 20);
+      "nothing is felt", [&] { return !state_is("Fühlen: die Kraft ist an"); }, 20);
 }
 
 void the_setting_says_english() {
