@@ -12,6 +12,7 @@
 
 #include "modes/scene/edit_text.h"
 #include "modes/scene/scene_json.h"
+#include "solver/solver_type.h"
 #include "solver/text/testing/shown.h"
 
 namespace palpate::modes {
@@ -46,6 +47,14 @@ std::string many_modes() {
   std::string modes;
   for (int n = 0; n < 1000; ++n) modes += std::string(n ? "," : "") + R"({"type": "friction", "strength_n": 0.1})";
   return R"({"version": 1, "modes": [)" + modes + "]}";
+}
+
+/// The key `solvers`, with every solver switched off.
+std::string no_solvers() {
+  std::string solvers;
+  for (const solver::SolverType* const type : solver::solver_types())
+    solvers += (solvers.empty() ? "\"" : ", \"") + std::string(type->name) + "\": false";
+  return R"("solvers": {)" + solvers + "}";
 }
 
 const std::string air = R"({"name": "air", "high": -400, "softness": 100})";
@@ -101,7 +110,7 @@ std::vector<Provoked> provoke_scenes() {
       {"not-a-color-such-as-0072b2", surface(R"("strength_n": 1, "color": "red")")},
       {"no-length",
        R"({"version": 1, "modes": [{"type": "landmark", "shape": "plane", "position_mm": [0,0,0], "direction": [0,0,0], "strength_n": 1}]})"},
-      {"all-are-switched-off", scene(R"("solvers": {"analytical": false, "exact": false, "descent": false})")},
+      {"all-are-switched-off", scene(no_solvers())},
       {"not-between-0-and-1000", scene(R"("subdivision": {"most_halts": 2000})")},
       {"not-between-1-and-1000", scene(R"("subdivision": {"most": 0})")},
       {"too-many", many_modes()},

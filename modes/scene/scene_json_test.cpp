@@ -13,6 +13,7 @@
 #include "solver/analytical.h"
 #include "solver/descent.h"
 #include "solver/exact.h"
+#include "solver/solver_type.h"
 #include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
@@ -70,14 +71,21 @@ TEST(SceneJson, text_to_scene_to_text_is_stable) {
   EXPECT_EQ(scene.modes[4].strength_n(0), 3.0);
 }
 
+/// The key `solvers` with every solver, each not as it is by default.
+std::string solvers_not_as_usual() {
+  nlohmann::json solvers = nlohmann::json::object();
+  for (const solver::SolverType* const type : solver::solver_types())
+    solvers[std::string(type->name)] = !type->is_usual;
+  return R"("solvers": )" + solvers.dump();
+}
+
 /// A scene that gives every key, none at its default: read and written, its text says the same, key by key. So no key
 /// is lost or told as another, in either direction.
 TEST(SceneJson, every_key_comes_back) {
-  const std::string text = R"({
+  const std::string text = "{" + solvers_not_as_usual() + R"(,
     "version": 1, "name": "n", "description": "d", "stiffness_n_per_m": 411, "gradient_scale_mm": 1.7,
     "limits": {"force_limit_n": 2.1, "slew_limit_n_per_ms": 0.7, "ramp_s": 0.31, "speed_limit_m_per_s": 0.83},
     "workspace": {"center_mm": [1, 2, -3], "rotation": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "scale": 2.5, "fit": true},
-    "solvers": {"analytical": false, "exact": true, "descent": true},
     "subdivision": {"step_mm": 0.2, "most": 3, "proxy_step_mm": 0.17, "most_halts": 5},
     "filter": {"type": "bilateral", "sigma_mm": 0.6, "sigma_value": 41},
     "sampling": {"value": "trilinear", "gradient": "cubic"},
