@@ -101,13 +101,12 @@ void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& o
   add->add_option("--host", archive.host, "its machine's name or address")->required();
   add->add_option("--port", archive.port, "its DICOM port")->required();
   add->add_option("--called", archive.called, "its AE title")->required();
-  add->add_option("--calling", archive.calling, "our AE title, as it is known there")->required();
+  add->add_option("--calling", archive.calling, "our AE title, as the archive knows it")->required();
   add->add_flag("--get", archive.uses_get,
                 "fetch with C-GET, if the archive offers it; without it the archive connects to this machine (C-MOVE)");
-  add->add_option("--listen", archive.listen_port, "the port of this machine to which the archive sends for a C-MOVE")
+  add->add_option("--listen", archive.listen_port, "our port, to which the archive sends (C-MOVE)")
       ->capture_default_str();
-  add->add_option("--listen-address", archive.listen_address,
-                  "the IPv4 address of this machine for that port; 0.0.0.0: all of them")
+  add->add_option("--listen-address", archive.listen_address, "our IPv4 address for that port; 0.0.0.0: every address")
       ->capture_default_str();
   add->add_option("--wait", archive.silence_s, "give up if it is silent for so many seconds")->capture_default_str();
   add->add_option("--tls-ca", archive.tls.authorities,
@@ -115,7 +114,7 @@ void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& o
   add->add_option("--tls-certificate", archive.tls.certificate,
                   "our own certificate (PEM), if the archive asks for it");
   add->add_option("--tls-name", archive.tls.name,
-                  "the machine that the archive's certificate names, if it is not --host");
+                  "the host name in the archive's certificate, if it differs from --host");
   add->add_option("--tls-key", archive.tls.key, "the private key of our certificate (PEM, without a pass phrase)");
   add->callback([options] { add_to_settings(*options); });
 }

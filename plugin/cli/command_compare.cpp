@@ -57,9 +57,9 @@ void run(const CompareOptions& options) {
 
 void add_compare(CLI::App& program) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = program.add_subcommand(
-      "compare",
-      "Compares the forces of two recordings of one stroke through a scan, place by place. Their speeds may differ.");
+  CLI::App* command = program.add_subcommand("compare",
+                                             "Compares the forces of two recordings of one stroke through a scan, at "
+                                             "equal places along it. The speeds may differ.");
   command->add_option("FIRST", options->first, "a recording")->required()->check(CLI::ExistingFile);
   command->add_option("SECOND", options->second, "another, made on the same scan")
       ->required()

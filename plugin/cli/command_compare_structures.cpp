@@ -94,8 +94,8 @@ void add_compare_structures(CLI::App& structures) {
   CLI::App* command =
       structures.add_subcommand("compare", "Measures how far apart two outlines are; their grids may differ");
   command->footer(
-      "A, B and C: a SEG, RTSTRUCT or label map, with :NUMBER or :NAME where it holds several structures.\n"
-      "The surfaces that are felt are compared. They are smooth. The center of each voxel\n"
+      "A, B, C: SEG, RTSTRUCT or label map; add :NUMBER or :NAME if it holds several structures.\n"
+      "The smooth surfaces that are felt are compared. The center of each voxel\n"
       "of a structure lies inside its surface, and the centers of all other voxels lie outside.\n"
       "volume_mm3     of A and of B, as `palpate structures` lists it\n"
       "dice           twice the volume that both share, over the sum of both\n"

@@ -111,8 +111,8 @@ void run_correct(const CorrectOptions& options) try {
 
 void add_correct(CLI::App& program) {
   const auto options = std::make_shared<CorrectOptions>();
-  CLI::App* command =
-      program.add_subcommand("correct", "Applies edits to a structure's outline and writes it on the scan's grid");
+  CLI::App* command = program.add_subcommand(
+      "correct", "Applies edits to a structure's outline, and writes the corrected outline on the scan's grid");
   command->footer(
       "The ending of OUT chooses the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct;\n"
       ".nii, .nii.gz, .nrrd, .seg.nrrd and .mha are label maps.\n"
@@ -132,7 +132,7 @@ void add_correct(CLI::App& program) {
   command->add_option("--edits", options->edits, "A JSON file with the edits (below)")->required();
   command->add_option("-o,--output", options->output, "The file to write: OUT")->required();
   command->add_flag("--rtstruct", options->rtstruct, "Write contours (RTSTRUCT) as .dcm");
-  command->add_flag("--force", options->force, "Overwrite OUT if it exists, but never the file that is corrected");
+  command->add_flag("--force", options->force, "Overwrite OUT if it exists; the input is never overwritten");
   command->callback([options] { run_correct(*options); });
 }
 

@@ -136,13 +136,12 @@ void add_devices(CLI::App& program) {
   const auto check = std::make_shared<DeviceCheck>();
   CLI::Option* const which = command->add_option(
       "--check", check->stylus.device,
-      "Ask, then push each axis of this stylus (KIND or KIND@ADDRESS) with 0.2 N; say what the hand should feel,\n"
-      "and write the settings that were found");
+      "Ask first, then push each axis of this stylus (KIND or KIND@ADDRESS) with 0.2 N, say what the hand should\n"
+      "feel, and write a settings file");
   command
       ->add_option("--firmware", check->stylus.firmware, "Falcon: Novint's firmware file, if the device has none yet")
       ->needs(which);
-  command->add_option("--device-settings", check->stylus.settings, "The settings that it has now: a JSON file")
-      ->needs(which);
+  command->add_option("--device-settings", check->stylus.settings, "Its present settings, a JSON file")->needs(which);
   command
       ->add_option("-o,--output", check->output,
                    "The file for its settings (default: KIND-settings.json in this folder)")

@@ -90,7 +90,8 @@ void add_fetch(CLI::App& program) {
                       "folder to fetch into, with a subfolder for each series (default: a private folder, see `palpate "
                       "archive empty`)");
   command->add_option("--most-mib", options->most_mib, "stop after this many MiB")->capture_default_str();
-  command->add_option("--most-files", options->limits.files, "give up beyond so many files")->capture_default_str();
+  command->add_option("--most-files", options->limits.files, "give up if there are more files than this")
+      ->capture_default_str();
   command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });
 }

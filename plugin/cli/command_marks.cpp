@@ -90,7 +90,7 @@ void add_marks(CLI::App& program) {
       program, "marks", "Lists the marks of a recording: points, paths, distances, angles (LPS, mm)", options);
   CLI::App* format = command->add_option_group("format", "how to print the marks; default: as text");
   format->require_option(0, 1);
-  format->add_flag("--csv", options->csv, "print CSV, with a line for each");
+  format->add_flag("--csv", options->csv, "print CSV, one line for each mark, path, distance and angle");
   format->add_flag("--json", options->json, "print JSON");
   format->add_flag("--mrk.json", options->markups, "print 3D Slicer's markups; save them as NAME.mrk.json");
   command->callback([options] { run_marks(*options); });
@@ -98,9 +98,9 @@ void add_marks(CLI::App& program) {
 
 void add_export(CLI::App& program) {
   const auto options = std::make_shared<MarksOptions>();
-  CLI::App* command = add_marks_command(
-      program, "export", "Writes the marks of a recording as DICOM for the scan's study: an SR (TID 1500) and pictures",
-      options);
+  CLI::App* command =
+      add_marks_command(program, "export",
+                        "Writes a recording's marks for the scan's study: a DICOM SR (TID 1500) and pictures", options);
   command->add_option("-o,--output", options->output, "a new or empty folder")->required();
   command->callback([options] { run_export(*options); });
 }

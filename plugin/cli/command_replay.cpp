@@ -162,7 +162,7 @@ void add_replay(CLI::App& program) {
   add_series_option(*command, options->series);
   command->get_option("SERIES")->required(false);
   command->get_option("--frame")->description(
-      "Which frame, from 0, if the recording does not hold it (made before 0.2.0)");
+      "Which frame (from 0), if the recording does not say (it is older than 0.2.0)");
   command->add_option("--csv", options->csv, "also write a CSV file with a line for every tick");
   command
       ->add_option("--structures", options->structures,

@@ -79,9 +79,9 @@ void run(const SampleOptions& options) {
 void add_sample(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "sample",
-      "Prints value and gradient at points in patient space. Values are interpolated linearly between the eight voxels "
-      "around the point (trilinear). Gradients are computed at these voxels after a Gaussian blur (--scale), and "
-      "interpolated in the same way");
+      "Prints value and gradient at points in patient space.\n"
+      "Values are interpolated linearly between the eight voxels around the point (trilinear). Gradients are computed\n"
+      "at these voxels after a Gaussian blur (--scale), and interpolated in the same way.");
   const auto options = std::make_shared<SampleOptions>();
   add_series_option(*command, options->series);
   command->add_option("--at", options->at, "Points x,y,z in mm, patient space (LPS)")->required();

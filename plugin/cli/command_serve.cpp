@@ -69,7 +69,8 @@ void add_serve(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--host", options->address.host,
-                   "the address of this machine to listen on; any but 127.0.0.1 lets others read and set scenes")
+                   "the address of this machine to listen on; any but 127.0.0.1 lets other machines read the session "
+                   "and set scenes")
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "record the session to this file (HDF5); it must be new");
   command->callback([options] { run(*options); });

@@ -95,8 +95,8 @@ void add_suspects(CLI::App& program) {
       program.add_subcommand("suspects", "Lists the places at which a structure's outline is doubtful on a scan");
   command->footer(
       "Every 2 mm the scan's own edge is searched along the outline's normal, up to 6 mm away.\n"
-      "kind           edge: the scan's edge is farther from the outline than half a voxel and than twice its "
-      "uncertainty\n"
+      "kind           edge: the scan's edge is more than half a voxel, and more than twice its uncertainty, from the "
+      "outline\n"
       "               no_edge: the scan has no edge over more than 1 cm2, and the tissue is alike on both sides;\n"
       "               looked for only if a third of the outline has an edge\n"
       "               island, hole: smaller than a tenth of the largest part\n"
@@ -106,7 +106,7 @@ void add_suspects(CLI::App& program) {
       "area\n"
       "largest_mm     largest distance to the scan's edge; island, hole: their depth\n"
       "known_to_mm    uncertainty of the scan's edge (two standard deviations)\n"
-      "The list is ordered by area times distance. no_edge has distances of 0, and is ordered as if they were 6 mm.");
+      "The list is ordered by area times distance. no_edge has no distance: 0 is printed, and it is ordered as 6 mm.");
   add_series_option(*command, options->series);
   command->add_option("--structure", options->structure, "FILE or FILE:SEGMENT")->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");

@@ -11,9 +11,8 @@ void add_session_option(CLI::App& command, SessionOption& option) {
       "a scene's file or the name of a starting scene (default: one that suits the part of the body and the modality)");
   add_probe_path_option(command, option.path);
   add_stylus_option(command, option.stylus);
-  command.add_option(
-      "--seconds", option.seconds,
-      "how long (default: until the end of the simulated hand's path; with another stylus until Ctrl-C)");
+  command.add_option("--seconds", option.seconds,
+                     "how long (default: to the end of the simulated hand's path; with a real stylus, until Ctrl-C)");
   command.add_flag("--live", option.live, "show what is felt, even if stderr is not a terminal");
 }
 

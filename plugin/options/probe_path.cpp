@@ -61,10 +61,11 @@ std::vector<device::Waypoint> to_device(const std::vector<PathPoint>& path, cons
 void add_probe_path_option(CLI::App& command, ProbePathOption& option) {
   command
       .add_option("--path", option.file,
-                  "the path of a simulated hand: a CSV file of time_s,x_mm,y_mm,z_mm (LPS), and buttons if wished")
+                  "the path of a simulated hand: a CSV file: time_s,x_mm,y_mm,z_mm (LPS) and, optionally, buttons")
       ->check(CLI::ExistingFile);
-  command.add_option("--from", option.from,
-                     "where that hand begins to press: x,y,z in mm (default: the front, at 3/4 of the scan's height)");
+  command.add_option(
+      "--from", option.from,
+      "where the simulated hand begins to press: x,y,z in mm (default: the front, at 3/4 of the scan's height)");
   command.add_option("--to", option.to, "where it presses to (default: the middle, at the same height)");
 }
 

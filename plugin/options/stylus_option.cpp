@@ -17,7 +17,7 @@ void add_stylus_option(CLI::App& command, StylusChoice& choice) {
   command.add_option("--firmware", choice.firmware, "Falcon: Novint's firmware file, if the device has none yet");
   command.add_option(
       "--device-settings", choice.settings,
-      "a JSON file of the device's settings: its largest force, and the keys that the header of its driver lists");
+      "a JSON file of the device's settings: its largest force and more; `palpate devices --check KIND` writes one");
   command.add_option("--seed", choice.seed, "simulated stylus: seed of the hand's tremor")->capture_default_str();
   command.add_option("--rate", choice.rate_hz, "simulated stylus: ticks a second")
       ->check(CLI::Range(100.0, 20000.0))
