@@ -83,7 +83,7 @@
         <translation>Prüfen</translation>
     </message>
     <message>
-        <source>Whether the archive answers and knows us (C-ECHO)</source>
+        <source>Tests whether the archive answers and knows us (C-ECHO)</source>
         <translation>Ob das Archiv antwortet und uns kennt (C-ECHO)</translation>
     </message>
     <message>
@@ -99,7 +99,7 @@
         <translation>Holen und öffnen</translation>
     </message>
     <message>
-        <source>The series that is marked, or the whole study. A double click does the same.</source>
+        <source>Fetches the marked series, or the whole study. A double click does the same.</source>
         <translation>Die markierte Serie oder die ganze Studie. Ein Doppelklick tut dasselbe.</translation>
     </message>
     <message>
@@ -111,7 +111,7 @@
         <translation>Leeren</translation>
     </message>
     <message>
-        <source>Deletes all that was fetched, but for the scan that is open</source>
+        <source>Deletes all fetched scans except the open one</source>
         <translation>Löscht alles Geholte außer der offenen Aufnahme</translation>
     </message>
 </context>
@@ -443,8 +443,8 @@
         <translation>Senden…</translation>
     </message>
     <message>
-        <source>Shows first what would be sent to an archive, and for which patient</source>
-        <translation>Zeigt erst, was an ein Archiv gesendet würde und für welchen Patienten</translation>
+        <source>Sends to an archive; first shows what, and for which patient</source>
+        <translation>Sendet an ein Archiv; zeigt erst, was und für welchen Patienten</translation>
     </message>
     <message>
         <source>Looking for doubtful places, %1 %</source>
@@ -491,7 +491,7 @@
         <translation>In einer Schicht den richtigen Rand nachziehen: Der Umriss folgt. Oder M halten, während der Stift den Rand fühlt. In der Volumenansicht über den Umriss ziehen: Er geht dort zur Kante der Aufnahme.</translation>
     </message>
     <message>
-        <source>The stylus stays in the slice of the marked view while it traces. F held in a view frees it.</source>
+        <source>The stylus stays in the slice of the marked view while it traces. Hold F in a view to free it.</source>
         <translation>Der Stift bleibt beim Nachziehen in der Schicht der markierten Ansicht. F in einer Ansicht halten, um ihn freizugeben.</translation>
     </message>
     <message>
@@ -752,7 +752,7 @@
         <translation>Kraft auf den Stift</translation>
     </message>
     <message>
-        <source>Distance of the stylus behind the boundary that holds it, in mm of the patient</source>
+        <source>How far the stylus has gone past the boundary that holds it, in mm in the patient</source>
         <translation>Wie weit der Stift hinter der Grenze ist, die ihn hält, in mm im Patienten</translation>
     </message>
     <message>
@@ -856,7 +856,7 @@
         <translation>außerhalb der Aufnahme</translation>
     </message>
     <message>
-        <source>Distance to the nearest structure of the scene; in color within its margin</source>
+        <source>Distance to the nearest structure of the scene; colored inside its margin</source>
         <translation>Abstand zur nächsten Struktur der Szene; farbig in ihrem Sicherheitsabstand</translation>
     </message>
     <message>
@@ -883,7 +883,7 @@
 <context>
     <name>ForceStrip</name>
     <message>
-        <source>Force of the last ten seconds. The dashed line is the limit; it is shown once a third of the limit was felt.</source>
+        <source>Force of the last ten seconds. The dashed line is the limit; it appears when the force reaches a third of it.</source>
         <translation>Kraft der letzten zehn Sekunden. Die gestrichelte Linie ist die Grenze; sie erscheint, sobald ein Drittel der Grenze gefühlt wurde.</translation>
     </message>
     <message>
@@ -991,8 +991,8 @@
         <translation>Senden…</translation>
     </message>
     <message>
-        <source>Shows first what would be sent to an archive, and for which patient</source>
-        <translation>Zeigt erst, was an ein Archiv gesendet würde und für welchen Patienten</translation>
+        <source>Sends to an archive; first shows what, and for which patient</source>
+        <translation>Sendet an ein Archiv; zeigt erst, was und für welchen Patienten</translation>
     </message>
     <message>
         <source>no boundary felt</source>
@@ -2062,15 +2062,15 @@ ID %2, Studie vom %3</translation>
         <translation>Farbe von %1</translation>
     </message>
     <message>
-        <source>%1, and %2 that cannot be felt here</source>
-        <translation>%1, und %2, die hier nicht gefühlt werden können</translation>
+        <source>%1; %2 cannot be felt here</source>
+        <translation>%1; %2 sind hier nicht zu fühlen</translation>
     </message>
     <message>
         <source>Check the box to show it in the views. A double click chooses its color.</source>
         <translation>Das Kästchen ankreuzen, um sie in den Ansichten zu zeigen. Ein Doppelklick wählt ihre Farbe.</translation>
     </message>
     <message>
-        <source>The margin of a keep-out; the footer warns inside it</source>
+        <source>Width of the keep-out margin. The footer warns while the stylus is in it</source>
         <translation>Der Sicherheitsabstand einer Sperre; die Fußzeile warnt, solange der Stift darin ist</translation>
     </message>
     <message>
@@ -2405,11 +2405,11 @@ ID %2, Studie vom %3</translation>
         <translation>Unser AE-Titel</translation>
     </message>
     <message>
-        <source>What this program is called; it has to be known there</source>
-        <translation>Wie dieses Programm heißt; das Archiv muss den Titel kennen</translation>
+        <source>The AE title of this program; the archive has to know it</source>
+        <translation>Der AE-Titel dieses Programms; das Archiv muss ihn kennen</translation>
     </message>
     <message>
-        <source>Fetch with C-GET, where the archive has it</source>
+        <source>Fetch with C-GET if the archive supports it</source>
         <translation>Mit C-GET holen, wenn das Archiv es kann</translation>
     </message>
     <message>
@@ -2465,8 +2465,8 @@ ID %2, Studie vom %3</translation>
         <translation>Sein privater Schlüssel (PEM), ohne Kennwort</translation>
     </message>
     <message>
-        <source>The machine that the archive&apos;s certificate names, if it is not the host above</source>
-        <translation>Der Rechner, den das Zertifikat des Archivs nennt, wenn es nicht der obige ist</translation>
+        <source>The host name in the archive&apos;s certificate, if it differs from the host above</source>
+        <translation>Der Rechnername im Zertifikat des Archivs, wenn er vom obigen abweicht</translation>
     </message>
     <message>
         <source>TLS: name</source>

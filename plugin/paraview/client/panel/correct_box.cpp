@@ -132,7 +132,7 @@ QWidget* CorrectBox::build_tools() {
   in_slice_ = new QCheckBox(box);
   in_slice_->setObjectName(QStringLiteral("palpateHoldInSlice"));
   in_slice_->setToolTip(
-      tr("The stylus stays in the slice of the marked view while it traces. F held in a view frees it."));
+      tr("The stylus stays in the slice of the marked view while it traces. Hold F in a view to free it."));
   connect(in_slice_, &QCheckBox::clicked, this, &CorrectBox::slice_wanted);
   rows->addWidget(in_slice_, 0, Qt::AlignLeft);
   return box;
@@ -161,9 +161,8 @@ QWidget* CorrectBox::build_ways_out() {
   };
   save_ = add_button("palpateCorrectSave", tr("Save…"), tr("As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"),
                      &CorrectBox::save_wanted);
-  send_ =
-      add_button("palpateCorrectSend", tr("Send…"),
-                 tr("Shows first what would be sent to an archive, and for which patient"), &CorrectBox::send_wanted);
+  send_ = add_button("palpateCorrectSend", tr("Send…"),
+                     tr("Sends to an archive; first shows what, and for which patient"), &CorrectBox::send_wanted);
   return box;
 }
 

@@ -71,7 +71,7 @@ void Footer::add_values(QGridLayout& grid) {
   tissue_ = make_value(this, "palpateTissue", tr("Value of the scan and tissue at the proxy"));
   grid.addWidget(tissue_, 0, 1, 1, 2);
   depth_ = make_value(this, "palpateDepth",
-                      tr("Distance of the stylus behind the boundary that holds it, in mm of the patient"));
+                      tr("How far the stylus has gone past the boundary that holds it, in mm in the patient"));
   grid.addWidget(depth_, 1, 0, 1, 3);  // the longest: a boundary's name, and how well its place is known
   strip_ = new ForceStrip(this);
   grid.addWidget(strip_, 2, 0, 1, 3);
@@ -80,7 +80,7 @@ void Footer::add_values(QGridLayout& grid) {
   felt_->setText(tr("No scan is open."));
   grid.addWidget(felt_, 8, 0, 1, 3);
   distance_ = make_value(this, "palpateDistance",
-                         tr("Distance to the nearest structure of the scene; in color within its margin"));
+                         tr("Distance to the nearest structure of the scene; colored inside its margin"));
   distance_->hide();
   grid.addWidget(distance_, 9, 0, 1, 3);
 }

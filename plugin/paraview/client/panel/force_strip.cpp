@@ -23,7 +23,7 @@ ForceStrip::ForceStrip(QWidget* parent) : QWidget(parent) {
   setMinimumHeight(48);
   setToolTip(QCoreApplication::translate(
       "ForceStrip",
-      "Force of the last ten seconds. The dashed line is the limit; it is shown once a third of the limit was felt."));
+      "Force of the last ten seconds. The dashed line is the limit; it appears when the force reaches a third of it."));
 }
 
 void ForceStrip::add(double force_n) {

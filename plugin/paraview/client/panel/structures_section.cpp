@@ -248,7 +248,7 @@ QString StructuresSection::in_words() const {
   const auto felt = std::ranges::count_if(entries_, [](const Entry& entry) { return entry.why_not.empty(); });
   if (entries_.empty()) return {};
   const auto others = static_cast<std::ptrdiff_t>(entries_.size()) - felt;
-  return others == 0 ? QString::number(felt) : tr("%1, and %2 that cannot be felt here").arg(felt).arg(others);
+  return others == 0 ? QString::number(felt) : tr("%1; %2 cannot be felt here").arg(felt).arg(others);
 }
 
 void StructuresSection::tell(const QString& message, bool problem) {

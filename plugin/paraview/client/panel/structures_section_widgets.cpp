@@ -101,7 +101,7 @@ QWidget* StructuresSection::build_uses() {
   margin_->setDecimals(1);
   margin_->setValue(first_margin_mm);
   margin_->setSuffix(tr(" mm"));
-  margin_->setToolTip(tr("The margin of a keep-out; the footer warns inside it"));
+  margin_->setToolTip(tr("Width of the keep-out margin. The footer warns while the stylus is in it"));
   row->addWidget(margin_);
   auto* const gate = add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
                                      tr("A mode of the scene is felt inside it only"), [] {});

@@ -55,8 +55,8 @@ ArchiveDialog::ArchiveDialog(Job& echoing, QWidget* parent) : QDialog(parent), e
   host_ = line("palpateArchiveHost", label_of("--host"), tr("Its machine's name or address"));
   port_ = port("palpateArchivePort", label_of("--port"), defaults.port, tr("Its DICOM port"));
   called_ = line("palpateArchiveCalled", label_of("--called"), tr("The archive's AE title (ask its administrator)"));
-  calling_ =
-      line("palpateArchiveCalling", label_of("--calling"), tr("What this program is called; it has to be known there"));
+  calling_ = line("palpateArchiveCalling", label_of("--calling"),
+                  tr("The AE title of this program; the archive has to know it"));
   uses_get_ = new QCheckBox(label_of("--get"), this);
   uses_get_->setObjectName(QStringLiteral("palpateArchiveGet"));
   uses_get_->setToolTip(
@@ -110,7 +110,7 @@ void ArchiveDialog::build_tls(QFormLayout& form) {
   key_ = file("palpateArchiveTlsKey", label_of("--tls-key"), tr("Its private key (PEM), without a pass phrase"));
   tls_name_ = new QLineEdit(this);
   tls_name_->setObjectName(QStringLiteral("palpateArchiveTlsName"));
-  tls_name_->setToolTip(tr("The machine that the archive's certificate names, if it is not the host above"));
+  tls_name_->setToolTip(tr("The host name in the archive's certificate, if it differs from the host above"));
   form.addRow(label_of("--tls-name"), tls_name_);
   // What was entered for an archive of that name is shown, and can be changed.
   connect(name_, &QLineEdit::editingFinished, this, [this] { show_tls(); });

@@ -28,7 +28,7 @@ void ArchiveTab::build_archives() {
   row->addWidget(archives_, 1);
   echo_ = new QPushButton(tr("Echo"), this);
   echo_->setObjectName(QStringLiteral("palpateEcho"));
-  echo_->setToolTip(tr("Whether the archive answers and knows us (C-ECHO)"));
+  echo_->setToolTip(tr("Tests whether the archive answers and knows us (C-ECHO)"));
   connect(echo_, &QPushButton::clicked, this, [this] { echo(); });
   row->addWidget(echo_);
   auto* const enter = new QPushButton(tr("Add…"), this);
@@ -67,7 +67,7 @@ void ArchiveTab::build_fetch() {
   auto* const work = new QHBoxLayout;
   fetch_ = new QPushButton(tr("Fetch and open"), this);
   fetch_->setObjectName(QStringLiteral("palpateFetch"));
-  fetch_->setToolTip(tr("The series that is marked, or the whole study. A double click does the same."));
+  fetch_->setToolTip(tr("Fetches the marked series, or the whole study. A double click does the same."));
   connect(fetch_, &QPushButton::clicked, this, [this] { fetch(); });
   work->addWidget(fetch_, 1);
   progress_ = new QProgressBar(this);
@@ -94,7 +94,7 @@ void ArchiveTab::build_fetch() {
   disk->addWidget(on_disk_, 1);
   empty_ = new QPushButton(tr("Empty"), this);
   empty_->setObjectName(QStringLiteral("palpateEmpty"));
-  empty_->setToolTip(tr("Deletes all that was fetched, but for the scan that is open"));
+  empty_->setToolTip(tr("Deletes all fetched scans except the open one"));
   connect(empty_, &QPushButton::clicked, this, [this] { empty(); });
   disk->addWidget(empty_);
   static_cast<QVBoxLayout*>(layout())->addLayout(disk);
