@@ -48,29 +48,42 @@ PreparedScene LiveSession::felt_of(const modes::Scene& scene, const std::shared_
   return prepare(suited_to(scene, stylus), filtered ? ahead : volume, stylus.workspace_half_extent, before);
 }
 
-std::vector<LoadedStructure> LiveSession::at_hand() const {
-  std::vector<LoadedStructure> all = felt_.structures;
-  if (offered_.volume && volume_ && io::raw_of(offered_.volume) == volume_) {
-    all.insert(all.end(), offered_.structures.begin(), offered_.structures.end());
+bool LiveSession::is_ahead_of(const std::shared_ptr<const io::Volume>& scan) const {
+  return offered_.volume && scan && io::raw_of(offered_.volume) == io::raw_of(scan);
+}
+
+std::vector<LoadedStructure> LiveSession::at_hand(const std::shared_ptr<const io::Volume>& scan) const {
+  std::vector<LoadedStructure> all;
+  if (io::raw_of(scan) == volume_) {
+    all = felt_.structures;
+  } else if (volume_) {
+    all = carried_over(felt_.structures, *volume_, *scan);
   }
+  if (is_ahead_of(scan)) all.insert(all.end(), offered_.structures.begin(), offered_.structures.end());
   return all;
 }
 
-bool LiveSession::has_read(const modes::Scene& scene) const {
-  if (!volume_ || scene.structures.empty()) return true;
+bool LiveSession::has_read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan) const {
+  if (!scan) return true;
   const device::Specification stylus = planned_for();
   const modes::Scene suited = suited_to(scene, stylus);
-  return are_loaded(suited, *plan_for(suited, *volume_, stylus.workspace_half_extent), at_hand());
+  const io::Volume& nearest = is_ahead_of(scan) ? *offered_.volume : *scan;
+  if (io::raw_of(scan) != volume_ && io::filter_of(nearest) != scene.filter) return false;
+  return scene.structures.empty() ||
+         are_loaded(suited, *plan_for(suited, *scan, stylus.workspace_half_extent), at_hand(scan));
 }
 
-std::function<PreparedScene()> LiveSession::reading(const modes::Scene& scene) const {
+std::function<PreparedScene()> LiveSession::reading(const modes::Scene& scene,
+                                                    const std::shared_ptr<const io::Volume>& scan) const {
   const device::Specification stylus = planned_for();
-  const bool is_ahead = offered_.volume && io::raw_of(offered_.volume) == volume_;
-  return [suited = suited_to(scene, stylus), scan = volume_, felt = is_ahead ? offered_.volume : felt_.volume,
-          extent = stylus.workspace_half_extent, before = at_hand()]() -> PreparedScene {
+  const bool is_other = io::raw_of(scan) != volume_;
+  const std::shared_ptr<const io::Volume> felt = is_other ? scan : felt_.volume;
+  return [suited = suited_to(scene, stylus), scan, is_other, felt = is_ahead_of(scan) ? offered_.volume : felt,
+          extent = stylus.workspace_half_extent, before = at_hand(scan)]() -> PreparedScene {
+    const bool is_filtered = !is_other || io::filter_of(*felt) == suited.filter;
     return {.plan = nullptr,
             .source = nullptr,
-            .volume = felt,
+            .volume = is_filtered ? felt : io::filtered(scan, suited.filter),
             .structures = load_structures(suited, *plan_for(suited, *scan, extent), scan, before)};
   };
 }

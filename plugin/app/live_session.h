@@ -53,12 +53,14 @@ class LiveSession {
   /// The same of a scene that was prepared in another thread: neither its filtered scan nor its structures are made
   /// again by set_scene(), or set_scan() with its volume.
   void offer(PreparedScene ahead) { offered_ = std::move(ahead); }
-  /// Whether set_scene() has all at hand that this scene reads of structures. If not, it reads files and computes
-  /// fields: reading() does so in another thread.
-  bool has_read(const modes::Scene& scene) const;
-  /// Reads for a scene on the scan what set_scene() would; its result is to be offered. It keeps what it needs, and
-  /// throws std::invalid_argument that names a structure which cannot be felt. Only with a scan.
-  std::function<PreparedScene()> reading(const modes::Scene& scene) const;
+  /// Whether everything is at hand that set_scene() needs of structures on this scan. On another scan than scan():
+  /// that set_scan() needs of structures and of the scene's filter. If not, they read files and compute fields, unless
+  /// reading() did so in another thread before.
+  bool has_read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan) const;
+  /// Work for another thread: reads what has_read() asks about. Its result is to be offered. Throws
+  /// std::invalid_argument that names a structure which cannot be felt.
+  std::function<PreparedScene()> reading(const modes::Scene& scene,
+                                         const std::shared_ptr<const io::Volume>& scan) const;
   const modes::Scene& scene() const noexcept { return scene_; }
   /// The plan of the scene on the scan, for the connected stylus, or for the simulated one if none is connected. Null
   /// without a scan.
@@ -128,7 +130,8 @@ class LiveSession {
 
  private:
   PreparedScene felt_of(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume) const;
-  std::vector<LoadedStructure> at_hand() const;
+  bool is_ahead_of(const std::shared_ptr<const io::Volume>& scan) const;
+  std::vector<LoadedStructure> at_hand(const std::shared_ptr<const io::Volume>& scan) const;
   Prepared before() const { return {.felt = felt_, .scene = scene_, .read_ahead = {}}; }
   Snapshot snapshot(double change_s) const;
   double ramp_s() const;

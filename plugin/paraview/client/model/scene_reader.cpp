@@ -5,17 +5,18 @@
 
 namespace palpate::plugin {
 
-bool SceneReader::read(const modes::Scene& scene, std::function<void(const QString& error)> done) {
-  if (!live_.scan()) return false;
-  if (std::exchange(was_read_, false) && held_of_.lock() == live_.scan()) return false;
+bool SceneReader::read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan,
+                       std::function<void(const QString& error)> done) {
+  if (!scan) return false;
+  if (std::exchange(was_read_, false) && held_of_.lock() == scan) return false;
   try {
-    if (live_.has_read(scene)) return false;
+    if (live_.has_read(scene, scan)) return false;
   } catch (const std::exception&) {
     return false;  // it is refused
   }
-  if (held_of_.lock() != live_.scan()) held_.clear();
-  held_of_ = live_.scan();
-  job_.ask(live_.reading(scene), [this, done = std::move(done)](const auto& read, const QString& error) {
+  if (held_of_.lock() != scan) held_.clear();
+  held_of_ = scan;
+  job_.ask(live_.reading(scene, scan), [this, done = std::move(done)](const auto& read, const QString& error) {
     if (read) {
       held_.insert(held_.end(), read->structures.begin(), read->structures.end());
       live_.offer(PreparedScene(*read));
@@ -25,6 +26,12 @@ bool SceneReader::read(const modes::Scene& scene, std::function<void(const QStri
     was_read_ = false;
   });
   return true;
+}
+
+bool SceneReader::cancel() {
+  const bool was_busy = job_.is_busy();
+  job_.cancel();
+  return was_busy;
 }
 
 }  // namespace palpate::plugin

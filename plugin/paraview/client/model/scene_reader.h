@@ -18,10 +18,13 @@ class SceneReader {
  public:
   explicit SceneReader(LiveSession& live) : live_(live) {}
 
-  /// Offers to the session what the scene needs, and calls `done` once, with an error if it cannot be read. False:
-  /// there is nothing to wait for. A scene is not read twice on the same scan: whoever asked asks again in `done`.
-  /// Another scene takes the place of the one that is being read for.
-  bool read(const modes::Scene& scene, std::function<void(const QString& error)> done);
+  /// Offers to the session what the scene needs on a scan, and calls `done` once, with an error if it cannot be read.
+  /// False: there is nothing to wait for. A scene is not read twice on the same scan: whoever asked asks again in
+  /// `done`. Another scene takes the place of the one that is being read for.
+  bool read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan,
+            std::function<void(const QString& error)> done);
+  /// What is being read is not wanted any more. Returns whether anything was.
+  bool cancel();
 
  private:
   LiveSession& live_;

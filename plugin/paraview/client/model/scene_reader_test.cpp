@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/fields/filtered.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/paraview/client/model/session_controller.h"
 #include "plugin/paraview/client/model/testing/application.h"
@@ -132,6 +134,82 @@ TEST_F(SceneReading, AChangeThatWaitsIsDoneOnTheFrameThatIsThereThen) {
   ASSERT_TRUE(comes([&] { return felt_margin_mm() == 2; }));
   EXPECT_EQ(session.live().scan(), frame);
   EXPECT_EQ(session.live().felt().structures.size(), 1U);
+}
+
+/// A state brings scan and scene together: what the scene needs is read in the background, and nothing is felt before.
+TEST_F(SceneReading, AScanThatIsExpectedIsFeltWhenItsStructuresAreRead) {
+  modes::Scene scene = model.scene();
+  const std::pair<const char*, io::Filter> filters[] = {{"none", {}},
+                                                        {"gaussian", {.type = io::find_filter_type("gaussian")}}};
+  for (const auto& [name, filter] : filters) {
+    for (const bool has_scan : {false, true}) {
+      SCOPED_TRACE(::testing::Message() << name << (has_scan ? ", a scan before" : ", no scan before"));
+      if (!has_scan) session.set_no_scan({});
+      session.expect_scan();
+      const double margin_mm = has_scan ? 6 : 2;  // of another reach, so that the field before does not serve
+      keeping_out(margin_mm)(scene);
+      scene.filter = filter;
+      model.open(scene);
+      testing::OpenedFiles opened({folder / "cube", folder / "registration"});
+      const auto scan = testing::registered_scan();
+      session.set_scan(scan, {});
+      EXPECT_TRUE(session.expects_scan() && opened.count().empty()) << "it was read while the panel stood still";
+      EXPECT_NE(session.live().scan(), scan);
+      session.feel();
+      EXPECT_FALSE(session.last().feels);
+      ASSERT_TRUE(comes([&] { return session.live().scan() == scan; }));
+      EXPECT_FALSE(session.expects_scan());
+      EXPECT_EQ(felt_margin_mm(), margin_mm);
+      EXPECT_EQ(session.live().felt().structures.size(), 1U);
+      EXPECT_EQ(io::filter_of(*session.live().felt_scan()), filter);
+    }
+  }
+}
+
+/// Of two scans the last is felt, and none where there is to be none.
+TEST_F(SceneReading, AScanThatIsReadForGivesWayToTheNext) {
+  modes::Scene scene = model.scene();
+  keeping_out(2)(scene);
+  session.expect_scan();
+  model.open(scene);
+  session.set_scan(testing::registered_scan(), {});
+  const auto last = testing::registered_scan();
+  session.set_scan(last, {});
+  ASSERT_TRUE(comes([&] { return session.live().scan() == last; }));
+  session.expect_scan();
+  session.set_scan(testing::registered_scan(), {});
+  session.set_no_scan({});
+  EXPECT_FALSE(session.expects_scan());
+  const auto later = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  EXPECT_TRUE(comes([&] { return session.live().scan() || std::chrono::steady_clock::now() > later; }));
+  EXPECT_EQ(session.live().scan(), nullptr);
+}
+
+/// A file that is gone: no scan is felt without what the scene asks for, and the reason names the structure.
+TEST_F(SceneReading, AScanWhoseStructureIsGoneIsNotFelt) {
+  modes::Scene scene = model.scene();
+  keeping_out(2)(scene);
+  std::filesystem::remove_all(folder / "cube");
+  QString why;
+  QObject::connect(&session, &SessionController::told, [&why](const QString& text, bool) { why += text; });
+  session.expect_scan();
+  model.open(scene);
+  session.set_scan(testing::registered_scan(), {});
+  ASSERT_TRUE(comes([&] { return why.contains(QStringLiteral("Cube")); }));
+  EXPECT_EQ(session.live().scan(), nullptr);
+  EXPECT_FALSE(session.expects_scan());
+}
+
+/// Another stylus, of another reach: the structures are at hand.
+TEST_F(SceneReading, AStylusThatIsConnectedReadsNoFile) {
+  model.edit(QStringLiteral("Keep out"), keeping_out(2));
+  ASSERT_TRUE(comes([&] { return felt_margin_mm() == 2; }));
+  testing::OpenedFiles opened({folder / "cube", folder / "registration"});
+  const auto before = felt_field();
+  session.connect_stylus({.device = "simulated"});
+  ASSERT_TRUE(session.live().is_connected());
+  EXPECT_TRUE(opened.count().empty());
+  EXPECT_EQ(felt_field(), before);
 }
 
 }  // namespace

@@ -32,8 +32,9 @@ void refuse_misfit(const modes::Scene& scene, const io::Volume& volume) {
 SessionController::SessionController(SceneModel& model, QObject* parent) : QObject(parent), model_(model) {
   setObjectName(QStringLiteral("palpateSession"));
   model.set_commit([this](const modes::Scene& scene, Pace pace) { commit(scene, pace); });
-  model.set_read(
-      [this](const modes::Scene& scene, auto done) { return !expects_scan_ && reader_.read(scene, std::move(done)); });
+  model.set_read([this](const modes::Scene& scene, auto done) {
+    return !coming_.expected && reader_.read(scene, live_.scan(), std::move(done));
+  });
   connect(&heart_, &QTimer::timeout, this, [this] { live_.heartbeat(); });
   connect(&polls_, &QTimer::timeout, this, [this] { poll(); });
   polls_.setTimerType(Qt::PreciseTimer);
@@ -49,6 +50,7 @@ SessionController::~SessionController() {
 
 void SessionController::set_no_scan(const QString& why) {
   mark_button_.forget();
+  if (coming_.reader.cancel()) coming_.expected = false;
   why_no_scan_ = why;
   const auto recorded_now = live_.disconnect();
   live_.set_scan(nullptr);
@@ -61,7 +63,29 @@ void SessionController::set_no_scan(const QString& why) {
 
 void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
   why_no_scan_.clear();
-  expects_scan_ = false;
+  if ((coming_.expected || !live_.scan()) && is_read_for(volume, frame)) return;
+  take_scan(std::move(volume), frame);
+}
+
+bool SessionController::is_read_for(const std::shared_ptr<const io::Volume>& volume, const ScanFrame& frame) {
+  const auto done = [this, volume, frame](const QString& error) {
+    if (error.isEmpty()) return set_scan(volume, frame);
+    coming_.expected = false;
+    set_no_scan({});
+    emit told(error, true);
+  };
+  if (!volume || !why_not_felt(model_.scene(), *volume).empty() || !coming_.reader.read(model_.scene(), volume, done)) {
+    return false;
+  }
+  coming_.expected = true;
+  release();
+  emit connection_changed();
+  return true;
+}
+
+void SessionController::take_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
+  coming_.reader.cancel();
+  coming_.expected = false;
   mark_button_.forget();  // they would be of two scans
   QString problem;
   std::optional<RecorderStatus> recorded_now;
@@ -74,13 +98,14 @@ void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const
     problem = QString::fromUtf8(error.what());
   }
   if (live_.plan()) workspace_.set(live_.plan()->workspace);
+  if (std::exchange(coming_.begins_outside, false)) begin_outside();
   emit connection_changed();
   tell_recorded(recorded_now);
   if (!problem.isEmpty()) emit told(problem, true);
 }
 
 void SessionController::commit(const modes::Scene& scene, Pace pace) {
-  if (expects_scan_) {
+  if (coming_.expected) {
     modes::validate(scene);
     return;
   }
@@ -94,8 +119,9 @@ void SessionController::follow_workspace() {
 }
 
 void SessionController::connect_stylus(const StylusChoice& choice) {
-  if (!live_.scan() && !why_no_scan_.isEmpty()) {
-    emit told(why_no_scan_, true);
+  const QString why = coming_.expected ? words(say("scan-is-still-being-read")) : why_no_scan_;
+  if (!live_.scan() && !why.isEmpty()) {
+    emit told(why, true);
     return;
   }
   QString problem;
@@ -133,18 +159,24 @@ void SessionController::disconnect_stylus() {
 }
 
 void SessionController::begin_outside() {
+  coming_.begins_outside = coming_.expected;
+  if (coming_.expected) return;
   if (has_simulated() && !feels() && start_) move_hand(start_(live_.specification()));
 }
 
 void SessionController::feel() {
   if (!live_.is_connected()) return;
-  if (!kept_off_.isEmpty()) {
-    emit told(kept_off_, true);
+  if (const QString why = why_kept_off(); !why.isEmpty()) {
+    emit told(why, true);
     return;
   }
   parted_.reset();
   live_.feel();
   emit told({}, false);
+}
+
+QString SessionController::why_kept_off() const {
+  return coming_.expected ? words(say("scan-is-still-being-read")) : kept_off_;
 }
 
 bool SessionController::feels() const {
@@ -284,7 +316,7 @@ void SessionController::poll() {
   const TickRing* const ring = live_.ticks();
   status_.connected = live_.is_connected();
   status_.clutched = is_clutched();
-  status_.kept_off = kept_off_;
+  status_.kept_off = why_kept_off();
   status_.peak_n = 0;
   if (!status_.connected) {
     status_ = instead_ ? instead_() : SessionStatus{};

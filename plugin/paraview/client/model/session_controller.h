@@ -66,7 +66,9 @@ class SessionController : public QObject {
   explicit SessionController(SceneModel& model, QObject* parent = nullptr);
   ~SessionController() override;
 
-  /// Another scan, or another frame of it, with the model's scene. The force is ramped across the change.
+  /// Another scan, or another frame of it, with the model's scene. The force is ramped across the change. What takes
+  /// long for a scan that was expected (structures of the scene, its filter) is made in the background: until then
+  /// expects_scan() is true, there is no force, and what was felt before stays.
   void set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
   /// Gives the scan through the filter of a scene that is about to be set.
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
@@ -77,8 +79,8 @@ class SessionController : public QObject {
   /// it is named.
   void note_work(const QString& what, double seconds) { slow_.note(what, seconds); }
   /// Until the next set_scan() a scene only has to be valid, because it is meant for the scan that will come.
-  void expect_scan() { expects_scan_ = true; }
-  bool expects_scan() const { return expects_scan_; }
+  void expect_scan() { coming_.expected = true; }
+  bool expects_scan() const { return coming_.expected; }
   /// There is no scan that can be felt: releases the stylus. connect() is refused with `why`, if it is given.
   void set_no_scan(const QString& why);
   const QString& why_no_scan() const { return why_no_scan_; }
@@ -93,7 +95,7 @@ class SessionController : public QObject {
   /// Without a force: only feel() turns it on.
   void connect_stylus(const StylusChoice& choice);
   void disconnect_stylus();
-  /// Another scan is in the views: moves a simulated stylus to where it would begin there.
+  /// Another scan is in the views: moves a simulated stylus to where it would begin there, as soon as it is felt.
   void begin_outside();
   void feel();
   void release();
@@ -150,6 +152,10 @@ class SessionController : public QObject {
   /// Whether the user has turned forces on. The session owns that; a fault takes them away until it is cleared.
   bool feels() const;
   void tell_recorded(const std::optional<RecorderStatus>& status);
+  void take_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
+  /// Whether a scan waits for what is read for it; take_scan() follows.
+  bool is_read_for(const std::shared_ptr<const io::Volume>& volume, const ScanFrame& frame);
+  QString why_kept_off() const;
   void commit(const modes::Scene& scene, Pace pace);
   void follow_workspace();
   void poll();
@@ -171,7 +177,6 @@ class SessionController : public QObject {
     bool felt = false;    ///< forces come back with the hand
   };
   std::optional<Parted> parted_;
-  bool expects_scan_ = false;
   QString kept_off_;
   std::function<glm::dvec3(const device::Specification&)> start_;
   SessionStatus status_;
@@ -180,7 +185,13 @@ class SessionController : public QObject {
   std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, polls_;
-  SceneReader reader_{live_};  // last: its thread is to end before the session
+  SceneReader reader_{live_};  // its thread is to end before the session, and so is the next one
+  struct ComingScan {
+    bool expected = false;
+    bool begins_outside = false;  ///< the simulated stylus, once the scan is there
+    SceneReader reader;           ///< reads for it
+  };
+  ComingScan coming_{.reader = SceneReader(live_)};
 };
 
 }  // namespace palpate::plugin
