@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <vector>
 
@@ -17,7 +18,8 @@ constexpr double least_run_mm = 2;  // less is noise, or a vessel
 constexpr double least_body_mm = 100, least_core_mm = 70, most_layer_mm = 25;
 // Of what says that it is a head, and of what says nothing. Heads that were measured have 0.38 and more, a bottle 0.04.
 constexpr double least_share = 0.2, least_share_unsaid = 0.5;
-constexpr double widest_head_mm = 170;  // in the mean over rays: those that were measured have 152 at most
+constexpr double longest_scan_mm = 700;  // along an axis: more is no scan of a head, and would take long
+constexpr double widest_head_mm = 170;   // in the mean over rays: those that were measured have 152 at most
 
 struct Run {
   bool bright = false;
@@ -73,6 +75,7 @@ Shell shell_of(const io::Volume& volume, double bright_from) {
     low = glm::min(low, at);
     high = glm::max(high, at);
   }
+  if (glm::any(glm::greaterThan(high - low, Vec3(longest_scan_mm)))) return {};
   std::size_t rays = 0, shells = 0;
   double length = 0;
   for (const int axis : {0, 1}) {  // the neck is below

@@ -11,15 +11,16 @@
 namespace palpate::modes::internal {
 
 struct Shell {
-  double share = 0;     ///< of the ends of rays through a body of 100 mm or more: how many cross a shell
+  double share = 0;     ///< of the ends of rays through a body of 100 mm or more: the part that crosses a shell
   double width_mm = 0;  ///< mean length of these rays within the body
 };
 
-/// `bright_from`: the value at which the darkest tissue, as air and bone, ends.
+/// `bright_from`: the value at which the darkest tissue, such as air and bone, ends. A scan longer than 700 mm has no
+/// shell.
 Shell shell_of(const io::Volume& volume, double bright_from);
 
-/// What the scan says of itself goes first: another part of the body is no head, and a "brain" of one solid piece is
-/// not one either. Where it says nothing, size and shell have to be those of a head.
+/// The header's body part is asked first: a scan of another part is no head. A scan that its header calls a head needs
+/// some of the shell. If the header names no part, the scan needs most of the shell, and the width of a head.
 bool is_built_like_a_head(const io::Volume& volume, double bright_from);
 
 }  // namespace palpate::modes::internal

@@ -87,5 +87,14 @@ TEST(HeadShape, of_nothing_is_none) {
   EXPECT_FALSE(is_built_like_a_head(scanned([](const Vec3&) { return 100; }), bright_from));
 }
 
+/// Rays of a step of 1 mm through it would never end.
+TEST(HeadShape, is_no_scan_of_many_meters) {
+  for (const double spacing_mm : {30.0, 1e3, 1e9}) {
+    io::Volume vast = scanned(shells(head_mm, 6, 8));
+    vast.geometry.spacing_i = vast.geometry.spacing_j = spacing_mm;
+    EXPECT_EQ(shell_of(vast, bright_from).share, 0) << spacing_mm;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::modes::internal

@@ -292,12 +292,12 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   const std::array least_gradients{steepest_of_least, internal::least_gradient_of_walls(noise, scale_mm)};
   const bool is_ct = volume->unit == "HU";
   std::optional<internal::Regions> regions;
-  std::optional<internal::EdgeSites> sites;
+  std::optional<internal::EdgeSites> edge_sites;
   io::EdgeUse use;
   if (is_ct) {
     regions.emplace(*volume, threads);
-    sites.emplace(*volume, *regions, internal::reach_of_sides * scale_mm);
-    use = [&](std::span<const io::CountedEdge> counted) { sites->add(counted); };
+    edge_sites.emplace(*volume, *regions, internal::reach_of_sides * scale_mm);
+    use = [&](std::span<const io::CountedEdge> counted) { edge_sites->add(counted); };
   }
   std::vector<io::LowHighHistogram> edges =
       io::low_high_histograms(*volume, kernel, {spread.low - margin * range, spread.high + margin * range, value_bins},
@@ -317,8 +317,8 @@ Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Pr
   const std::size_t between_tissues = suggestion.boundaries.size();
   add_faint_walls(internal::faint_walls(edges[1], found, noise.between(limits), range, counts.all, is_ct), range,
                   suggestion, noise_gradients);
-  if (sites) {
-    for (FoundBoundary& boundary : suggestion.boundaries) boundary.sites = sites_of(boundary, suggestion, *sites);
+  if (edge_sites) {
+    for (FoundBoundary& boundary : suggestion.boundaries) boundary.sites = sites_of(boundary, suggestion, *edge_sites);
   }
   double darkest_end = infinity;
   for (std::size_t b = 0; b < between_tissues; ++b)
