@@ -43,7 +43,6 @@ inline constexpr MessageRow scenes[] = {
      "change the number",
      {{"not-a-number-above-0", "{} is not a number above 0; it is in {}"},
       {"negative-value", "{} is negative; {}, 0 or more"},
-      {"negative-strength", "{} is negative; a strength is in newtons, 0 or more"},
       {"not-finite", "is not finite"}}},
     {"a color is six hexadecimal digits",
      "as it shows",

@@ -86,7 +86,6 @@ std::vector<Provoked> provoke_scenes() {
       {"there-is-no-such-key-here", scene(R"("stiffness": 3)")},
       {"not-a-number-above-0", scene(R"("stiffness_n_per_m": 0)")},
       {"there-is-no-mode", R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"},
-      {"negative-strength", surface(R"("strength_n": -1)")},
       {"negative-value", surface(R"("strength_n": {"nodes": [[0, -1]]})")},
       {"there-is-no-such-name", surface(R"("strength_n": {"of": "color", "nodes": [[0, 1]]})")},
       {"not-a-number", scene(R"("stiffness_n_per_m": "hard")")},

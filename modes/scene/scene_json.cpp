@@ -59,9 +59,6 @@ std::string structure_of(Members& members, Datum of, const Mode& mode) {
 /// A number: the same strength everywhere; or an object.
 void read_strength(const At& at, Mode& mode) {
   if (at.value.is_number()) {
-    if (number(at) < 0) {
-      refuse(at.path, say("negative-strength", number_text(number(at))));
-    }
     mode.strength_n = TransferFunction(number(at));
     return;
   }
