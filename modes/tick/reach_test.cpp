@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <set>
+#include <vector>
 
 #include "modes/testing/test_rig.h"
 
@@ -107,6 +109,34 @@ TEST(Reach, leaves_slices_out_of_a_plan_and_says_so) {
   EXPECT_EQ(plan.left_out.back().what, "slices 67-100");
   EXPECT_EQ(plan_of(3.9).slices, plan.slices) << "a strength that is edited takes nothing away";
   EXPECT_EQ(plan_of(4.1).slices, (SliceRange{30, 71}));
+}
+
+/// Wherever the workspace lies: no range is empty, and a slice is kept, or left out by one range.
+TEST(Reach, keeps_each_slice_or_names_it_once_as_left_out) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> center(-150, 350);
+  constexpr int count = 101;
+  std::set<std::size_t> ranges;
+  for (int n = 0; n < 200; ++n) {
+    Plan plan = make_plan(testing::scene_of({testing::surface(TransferFunction(2.0), Datum::value)}),
+                          io::FieldSet::value | io::FieldSet::gradient, {});
+    const std::size_t before = plan.left_out.size();
+    plan.workspace.center_mm = {0, 0, center(random)};
+    leave_out_slices(stack(count), {0.08, 0.02, 0.06}, plan);
+    std::vector<int> named(count, 0);
+    const auto name = [&named](const SliceRange& range) {
+      for (int slice = range.first; slice <= range.last; ++slice) ++named.at(static_cast<std::size_t>(slice));
+    };
+    if (!none(plan.slices)) name(plan.slices);
+    for (std::size_t m = before; m < plan.left_out.size(); ++m) {
+      ASSERT_TRUE(plan.left_out[m].slices);
+      EXPECT_LE(plan.left_out[m].slices->first, plan.left_out[m].slices->last) << plan.left_out[m].what;
+      name(*plan.left_out[m].slices);
+    }
+    ranges.insert(plan.left_out.size() - before);
+    EXPECT_EQ(std::count(named.begin(), named.end(), 1), count) << plan.workspace.center_mm.z;
+  }
+  EXPECT_TRUE(ranges.contains(1) && ranges.contains(2)) << "each shape is among them";
 }
 
 /// The proxy is nowhere farther from the probe than strength / stiffness. Slices that it can reach are kept, and none
