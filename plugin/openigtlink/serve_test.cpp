@@ -2,6 +2,7 @@
 // wire is what was recorded.
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "plugin/openigtlink/testing/shared_session.h"
 #include "plugin/recording/recorded_session.h"
 #include "plugin/testing/command_rig.h"
+#include "solver/text/testing/crowd.h"
 #include "solver/text/testing/sanitized.h"
 
 namespace palpate::plugin::igtl {
@@ -157,21 +159,22 @@ TEST(OpenIgtServe, FramesAreThoseOfTheirTicksSixtyTimesASecondAndInTime) {
               1e3 * quantile(apart_s, 0.5), 1e3 * quantile(late_s, 0.5), 1e3 * quantile(late_s, 0.99), worst);
 }
 
-/// More than three threads want each processor: then a tenth of a second's work takes a second.
-bool is_overloaded() {
-  double load = 0;
-  return ::getloadavg(&load, 1) == 1 && load > 3.0 * std::thread::hardware_concurrency();
+/// Whether wall time tells something of a program: nothing else wants the processors, and it is not run below others.
+bool is_idle() {
+  return crowd() <= 1 && ::getpriority(PRIO_PROCESS, 0) <= 0;
 }
 
-// Of three the fastest: the machine may be busy with other tests.
+// A contact tells the distance from an organ as soon as it is felt; then its force comes up along the ramp. The work
+// must fit into the second on any machine, the waiting only on an idle one. Of three the fastest.
 TEST(OpenIgtServe, ALabelMapIsFeltWithinASecond) {
   Serving serving;
   TestClient client(serving.port);
   ASSERT_TRUE(client.next("STRING", contact_name));
-  std::vector<double> waited_s;
+  std::vector<double> waited_s, worked_s;
+  bool idle = true;
   for (int n = 0; n < 3; ++n) {
     const std::string name = "organ " + std::to_string(n);
-    const double sent_s = utc_s();
+    const double sent_s = utc_s(), worked_before_s = serving.program.processor_s();
     client.send(testing::ball_of_labels(name, glm::dvec3(0, 0, n), 20));
     bool felt = false;
     while (!felt && utc_s() < sent_s + 60) {
@@ -180,10 +183,13 @@ TEST(OpenIgtServe, ALabelMapIsFeltWithinASecond) {
     }
     ASSERT_TRUE(felt) << name;
     waited_s.push_back(utc_s() - sent_s);
+    worked_s.push_back(serving.program.processor_s() - worked_before_s);
+    idle = idle && is_idle();
   }
-  // Until a contact tells the distance from it: from then on its force comes up along the ramp.
-  EXPECT_LT(quantile(waited_s, 0), is_sanitized || is_overloaded() ? 20 : 1);
-  std::printf("felt after %.2f, %.2f, %.2f s\n", waited_s[0], waited_s[1], waited_s[2]);
+  EXPECT_LT(quantile(worked_s, 0), is_sanitized ? 20 : 1);
+  EXPECT_LT(quantile(waited_s, 0), is_sanitized || !idle ? 20 : 1);
+  std::printf("felt after %.2f, %.2f, %.2f s; work %.2f, %.2f, %.2f s%s\n", waited_s[0], waited_s[1], waited_s[2],
+              worked_s[0], worked_s[1], worked_s[2], idle ? "" : "; the machine is busy");
   EXPECT_EQ(serving.program.end(SIGINT), 0) << "ended in good order";
 }
 

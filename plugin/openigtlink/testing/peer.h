@@ -13,6 +13,8 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -77,6 +79,14 @@ class Program {
     ::waitpid(child_, &status, 0);
     child_ = -1;
     return exit_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// Seconds of a processor that all its threads have used, also those that have ended. It must be running.
+  double processor_s() const {
+    std::ifstream file("/proc/" + std::to_string(child_) + "/stat");
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::istringstream fields(text.substr(text.rfind(')') + 1));  // proc(5): a name in parentheses is the second field
+    std::vector<std::string> words{std::istream_iterator<std::string>(fields), {}};
+    return (std::stod(words.at(11)) + std::stod(words.at(12))) / static_cast<double>(::sysconf(_SC_CLK_TCK));
   }
 
  private:
