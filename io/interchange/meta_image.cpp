@@ -12,6 +12,7 @@
 
 #include "io/errors.h"
 #include "io/interchange/header_text.h"
+#include "io/interchange/label_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 
@@ -141,6 +142,10 @@ std::optional<VoxelFile> open_meta_image(const std::filesystem::path& path, cons
 }  // namespace
 
 extern const LabelFormat meta_image_format;
-const LabelFormat meta_image_format{.name = "MetaImage", .endings = {".mha", ".mhd"}, .open = open_meta_image};
+const LabelFormat meta_image_format{.name = "MetaImage",
+                                    .endings = {".mha", ".mhd"},
+                                    .open = open_meta_image,
+                                    .written = {".mha"},
+                                    .bytes = meta_image_bytes};
 
 }  // namespace palpate::io

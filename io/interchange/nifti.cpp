@@ -13,6 +13,7 @@
 
 #include "io/errors.h"
 #include "io/interchange/header_text.h"
+#include "io/interchange/label_bytes.h"
 #include "io/interchange/voxel_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
@@ -299,6 +300,10 @@ std::optional<VoxelFile> open_nifti(const std::filesystem::path& path, const std
 }  // namespace
 
 extern const LabelFormat nifti_format;
-const LabelFormat nifti_format{.name = "NIfTI", .endings = {".nii", ".nii.gz"}, .open = open_nifti};
+const LabelFormat nifti_format{.name = "NIfTI",
+                               .endings = {".nii", ".nii.gz"},
+                               .open = open_nifti,
+                               .written = {".nii.gz", ".nii"},
+                               .bytes = nifti_bytes};
 
 }  // namespace palpate::io

@@ -12,6 +12,7 @@
 
 #include "io/errors.h"
 #include "io/interchange/header_text.h"
+#include "io/interchange/label_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 #include "io/structures/color.h"
@@ -290,6 +291,10 @@ std::optional<VoxelFile> open_nrrd(const std::filesystem::path& path, const std:
 }  // namespace
 
 extern const LabelFormat nrrd_format;
-const LabelFormat nrrd_format{.name = "NRRD", .endings = {".nrrd", ".nhdr"}, .open = open_nrrd};
+const LabelFormat nrrd_format{.name = "NRRD",
+                              .endings = {".nrrd", ".nhdr"},
+                              .open = open_nrrd,
+                              .written = {".seg.nrrd", ".nrrd"},
+                              .bytes = nrrd_bytes};
 
 }  // namespace palpate::io

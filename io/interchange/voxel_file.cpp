@@ -166,14 +166,37 @@ std::span<const LabelFormat* const> label_formats() {
   return formats;
 }
 
-std::vector<std::string> label_format_endings() {
+namespace {
+
+template <typename Endings>
+std::vector<std::string> endings_in(Endings LabelFormat::*of) {
   std::vector<std::string> all;
   for (const LabelFormat* const format : label_formats()) {
-    for (const std::string_view ending : format->endings) {
+    for (const std::string_view ending : format->*of) {
       if (!ending.empty()) all.emplace_back(ending);
     }
   }
   return all;
+}
+
+}  // namespace
+
+std::vector<std::string> label_format_endings() {
+  return endings_in(&LabelFormat::endings);
+}
+
+std::vector<std::string> written_endings() {
+  return endings_in(&LabelFormat::written);
+}
+
+std::optional<LabelWriter> writer_of(const fs::path& name) {
+  LabelWriter best;
+  for (const LabelFormat* const format : label_formats()) {
+    for (const std::string_view ending : format->written) {
+      if (ending.size() > best.ending.size() && has_ending(name, std::string(ending))) best = {format, ending};
+    }
+  }
+  return best.format ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace palpate::io

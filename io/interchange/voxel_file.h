@@ -19,6 +19,8 @@
 
 namespace palpate::io {
 
+struct LabelImage;
+
 /// What a label is called, where the file says it. Those of a file with layers are numbered by label_number().
 struct LabelName {
   std::string name;
@@ -82,11 +84,24 @@ struct LabelFormat {
   std::array<std::string_view, 4> endings{};  ///< of its files' names; the rest is empty
   /// As open_voxel_file(). Null if the file is none of this format.
   std::optional<VoxelFile> (*open)(const std::filesystem::path& path, const std::filesystem::path& named) = nullptr;
+  /// Endings that a structure is written with, the usual one first; the rest is empty. All are, if `bytes` is null.
+  std::array<std::string_view, 2> written{};
+  /// The whole file with this ending, one of `written`. The slices of the image lie evenly.
+  std::string (*bytes)(const LabelImage& image, std::string_view ending) = nullptr;
 };
 /// All formats, in the order in which a file is tried.
 std::span<const LabelFormat* const> label_formats();
 /// Of all formats: ".nii", ".nii.gz", ...
 std::vector<std::string> label_format_endings();
+/// Of all formats: those that a structure is written with.
+std::vector<std::string> written_endings();
+
+struct LabelWriter {
+  const LabelFormat* format = nullptr;
+  std::string_view ending;
+};
+/// Who writes a file of that name: of two endings that fit, the longer one. Null if there is no such format.
+std::optional<LabelWriter> writer_of(const std::filesystem::path& name);
 
 /// An affine map from voxels along the file's axes to LPS, mm.
 struct VoxelMap {

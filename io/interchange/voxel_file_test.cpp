@@ -38,7 +38,19 @@ TEST(LabelFormats, EachHasANameAndEndingsOfItsOwn) {
       EXPECT_TRUE(endings.insert(ending).second) << ending;
       EXPECT_EQ(ending.front(), '.');
     }
+    EXPECT_EQ(format->bytes == nullptr, format->written.front().empty()) << format->name;
+    for (const std::string_view ending : format->written) {
+      if (ending.empty()) continue;
+      const auto writer = writer_of("Liver" + std::string(ending));
+      ASSERT_TRUE(writer) << ending;
+      EXPECT_EQ(writer->format, format) << ending;
+      EXPECT_EQ(writer->ending, ending);
+      EXPECT_TRUE(
+          std::ranges::any_of(format->endings, [&](auto read) { return !read.empty() && ending.ends_with(read); }))
+          << ending << " is written and not read";
+    }
   }
+  EXPECT_FALSE(writer_of("Liver.png"));
   EXPECT_EQ(label_format_endings().size(), endings.size());
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "io/errors.h"
+#include "io/interchange/label_bytes.h"
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 #include "io/structures/color.h"
@@ -76,7 +77,8 @@ std::string nifti_extension(const StructureLabel& label) {
   return text;
 }
 
-std::string nifti_bytes(const LabelImage& image) {
+/// With a header, and not packed.
+std::string plain_nifti(const LabelImage& image) {
   constexpr std::size_t header_bytes = 352;
   std::string bytes(header_bytes, '\0');
   const auto put = [&](std::size_t at, const auto& value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
@@ -158,7 +160,14 @@ std::string segment_fields(const LabelImage& image) {
                           code(category), code(type), modifier)));
 }
 
-std::string nrrd_bytes(const LabelImage& image, bool with_segments) {
+}  // namespace
+
+std::string nifti_bytes(const LabelImage& image, std::string_view ending) {
+  std::string bytes = plain_nifti(image);
+  return ending == ".nii.gz" ? packed(bytes, Wrapping::gzip) : bytes;
+}
+
+std::string nrrd_bytes(const LabelImage& image, std::string_view ending) {
   const Geometry& geometry = image.geometry;
   const auto along = steps_of(geometry);
   const glm::ivec3& n = geometry.dimensions;
@@ -167,10 +176,10 @@ std::string nrrd_bytes(const LabelImage& image, bool with_segments) {
              "space directions: {} {} {}\nkinds: domain domain domain\nencoding: gzip\nspace origin: {}\n",
              n.x, n.y, n.z, in_parentheses(along[0]), in_parentheses(along[1]), in_parentheses(along[2]),
              in_parentheses(geometry.slice_positions.front())) +
-         (with_segments ? segment_fields(image) : "") + "\n" + packed(voxels_of(image), Wrapping::gzip);
+         (ending == ".seg.nrrd" ? segment_fields(image) : "") + "\n" + packed(voxels_of(image), Wrapping::gzip);
 }
 
-std::string meta_image_bytes(const LabelImage& image) {
+std::string meta_image_bytes(const LabelImage& image, std::string_view /*ending*/) {
   const Geometry& geometry = image.geometry;
   std::string rows, spacing;
   for (const Vec3& along : steps_of(geometry)) {
@@ -189,23 +198,15 @@ std::string meta_image_bytes(const LabelImage& image) {
          voxels;
 }
 
-std::string bytes_of_label_map(const LabelImage& image, const std::filesystem::path& file) {
-  if (has_ending(file, ".nii.gz")) return packed(nifti_bytes(image), Wrapping::gzip);
-  if (has_ending(file, ".nii")) return nifti_bytes(image);
-  if (has_ending(file, ".nrrd")) return nrrd_bytes(image, has_ending(file, ".seg.nrrd"));
-  if (has_ending(file, ".mha")) return meta_image_bytes(image);
-  throw DicomError(say("outline-of-no-known-ending", file.filename().string()));
-}
-
-}  // namespace
-
 void write_label_map(const LabelImage& image, const std::filesystem::path& file, const WriteOptions& options) {
   check_target(image.label, file, options);
   occupied_slices(image);
   if (!image.geometry.uniform || !image.geometry.gaps.empty()) {
     throw DicomError(say("slices-lie-unevenly-for-it", file.filename().string()));
   }
-  write_whole(file, bytes_of_label_map(image, file), existing(options));
+  const auto writer = writer_of(file);
+  if (!writer) throw DicomError(say("outline-of-no-known-ending", file.filename().string()));
+  write_whole(file, writer->format->bytes(image, writer->ending), existing(options));
 }
 
 }  // namespace palpate::io

@@ -75,9 +75,7 @@ std::pair<int, int> occupied_slices(const LabelImage& image) {
 StructureForm form_of(const std::filesystem::path& file, bool rtstruct) {
   if (has_ending(file, ".dcm")) return rtstruct ? StructureForm::contours : StructureForm::segmentation;
   if (rtstruct) throw DicomError(say("contours-are-dicom-alone", file.filename().string()));
-  for (const char* const ending : {".nii", ".nii.gz", ".nrrd", ".mha"}) {
-    if (has_ending(file, ending)) return StructureForm::label_map;
-  }
+  if (writer_of(file)) return StructureForm::label_map;
   throw DicomError(say("outline-of-no-known-ending", file.filename().string()));
 }
 

@@ -105,8 +105,8 @@ void write_segmentation(const LabelImage& image, const Series& scan, const std::
 void write_contours(const SliceContours& contours, const Series& scan, const std::filesystem::path& file,
                     const WriteOptions& options);
 
-/// NIfTI (.nii, .nii.gz), NRRD (.nrrd, .seg.nrrd) or MetaImage (.mha), as the file's name says. They hold one vector
-/// from a slice to the next: a scan with uneven slices is refused.
+/// A label map of the format that the file's name says (label_formats()). It holds one vector from a slice to the next:
+/// a scan with uneven slices is refused.
 void write_label_map(const LabelImage& image, const std::filesystem::path& file, const WriteOptions& options);
 
 /// What the name of a file asks for.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/errors.h"
+#include "io/interchange/voxel_file.h"
 #include "io/structures/edits.h"
 #include "io/structures/label_image.h"
 #include "modes/scene/edit_text.h"
@@ -114,8 +115,8 @@ void add_correct(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "correct", "Applies edits to a structure's outline, and writes the corrected outline on the scan's grid");
   command->footer(
-      "The ending of OUT chooses the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct;\n"
-      ".nii, .nii.gz, .nrrd, .seg.nrrd and .mha are label maps.\n"
+      "The ending of OUT chooses the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct; label maps are " +
+      fmt::format("{}.\n", fmt::join(io::written_endings(), ", ")) +
       "A SEG or RTSTRUCT goes into the scan's study, and refers to its images and to the outline that was corrected.\n"
       "EDITS: {\"version\": 1, \"edits\": [...]}, applied in their order, in patient space (LPS, mm):\n"
       "  {\"type\": \"trace\", \"points_mm\": [[x, y, z], ...], \"known_to_mm\": [...], \"reach_mm\": 8}\n"

@@ -1,11 +1,14 @@
 #include <pqUndoStack.h>
 
 #include <QFileDialog>
+#include <QStringList>
 
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "io/interchange/voxel_file.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/correct_box.h"
@@ -18,6 +21,23 @@
 // A structure is corrected: strokes come from the views and the stylus, and the outline goes out.
 
 namespace palpate::plugin {
+namespace {
+
+/// As a file dialog has them: "NIfTI (*.nii.gz *.nii)", ...
+QStringList label_map_kinds() {
+  const auto text = [](std::string_view utf8) { return QString::fromUtf8(utf8.data(), static_cast<int>(utf8.size())); };
+  QStringList kinds;
+  for (const io::LabelFormat* const format : io::label_formats()) {
+    QStringList endings;
+    for (const std::string_view ending : format->written) {
+      if (!ending.empty()) endings << QLatin1Char('*') + text(ending);
+    }
+    if (!endings.isEmpty()) kinds << QStringLiteral("%1 (%2)").arg(text(format->name), endings.join(QLatin1Char(' ')));
+  }
+  return kinds;
+}
+
+}  // namespace
 
 void PanelParts::connect_correction() {
   correction.set_outline([this](const io::Vec3& place) -> std::optional<double> {
@@ -72,13 +92,13 @@ void PanelParts::save_outline() {
   const auto edits = correction.edits();  // that the outline has
   const bool has_images = scans.shown()->of.details() != nullptr;
   const QString contours = tr("DICOM contours, RTSTRUCT (*.dcm)");
-  QStringList kinds{tr("NIfTI (*.nii.gz *.nii)"), tr("NRRD (*.seg.nrrd *.nrrd)"), tr("MetaImage (*.mha)")};
+  QStringList kinds = label_map_kinds();
   if (has_images) kinds = QStringList{tr("DICOM segmentation, SEG (*.dcm)"), contours} + kinds;
   QString kind;
   const QString file = QFileDialog::getSaveFileName(
       &dock, tr("Save the corrected outline"),
-      QString::fromStdString(outline->structure.name) +
-          (has_images ? QStringLiteral("-corrected.dcm") : QStringLiteral("-corrected.nii.gz")),
+      QString::fromStdString(outline->structure.name) + QStringLiteral("-corrected") +
+          (has_images ? QStringLiteral(".dcm") : QString::fromStdString(io::written_endings().front())),
       kinds.join(QStringLiteral(";;")), &kind);
   // The dialog has asked whether an existing file may be overwritten.
   if (file.isEmpty()) return;

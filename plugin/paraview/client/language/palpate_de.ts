@@ -1344,18 +1344,6 @@
         <translation>DICOM-Konturen, RTSTRUCT (*.dcm)</translation>
     </message>
     <message>
-        <source>NIfTI (*.nii.gz *.nii)</source>
-        <translation>NIfTI (*.nii.gz *.nii)</translation>
-    </message>
-    <message>
-        <source>NRRD (*.seg.nrrd *.nrrd)</source>
-        <translation>NRRD (*.seg.nrrd *.nrrd)</translation>
-    </message>
-    <message>
-        <source>MetaImage (*.mha)</source>
-        <translation>MetaImage (*.mha)</translation>
-    </message>
-    <message>
         <source>DICOM segmentation, SEG (*.dcm)</source>
         <translation>DICOM-Segmentierung, SEG (*.dcm)</translation>
     </message>

@@ -1,0 +1,18 @@
+#pragma once
+
+/// Whole files of label maps, as `LabelFormat::bytes` says.
+
+#include <string>
+#include <string_view>
+
+#include "io/structures/label_image.h"
+
+namespace palpate::io {
+
+/// NIfTI-1; ".nii.gz" is packed.
+std::string nifti_bytes(const LabelImage& image, std::string_view ending);
+/// ".seg.nrrd" has the fields that 3D Slicer reads.
+std::string nrrd_bytes(const LabelImage& image, std::string_view ending);
+std::string meta_image_bytes(const LabelImage& image, std::string_view ending);
+
+}  // namespace palpate::io
