@@ -10,8 +10,8 @@
                                                    the others is repeated, so that the table is of all
 
 Works in a copy of the tree under build/mutate; the tree itself is not touched. All slips that can be are compiled into one
-program and chosen at run time (slip.h); the others are compiled one by one. A slip is judged by those of its module's test
-suites that run its place, nearest and quickest first. Slips that cannot be seen since they change nothing are named, with the
+program and chosen at run time (slip.h); the others are compiled one by one. A slip is judged by those of its module's tests
+that run its place, nearest and quickest first. Slips that cannot be seen since they change nothing are named, with the
 reason, in .ci/equivalent_mutants.
 """
 
@@ -35,7 +35,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutate"
 EQUIVALENT = ROOT / ".ci" / "equivalent_mutants"
 SLIP_H = ROOT / "plugin" / "testing" / "slip.h"
-LONGEST_SUITE_S = 900
+LONGEST_TEST_S = 600
 PLACES = 4096  # `most` in slip.h
 TIMED_OUT = 1000
 SEEN = ("seen", "timed out")
@@ -203,6 +203,24 @@ def with_slips(path, mutants):
     return f'#include "{SLIP_H.relative_to(ROOT).as_posix()}"\n#line 1\n' + "\n".join(lines)
 
 
+def is_near(test, suites):
+    """Whether a test, "Prefix/Suite/0.Name/1", is of one of these suites."""
+    return not suites.isdisjoint(test.split(".")[0].split("/"))
+
+
+def batches(tests, seconds_of, first_s=1.0, most=500):
+    """The tests in their order, in parts that take four times as long as the one before: most slips are seen at once."""
+    batch, seconds = [], 0.0
+    for test in tests:
+        batch.append(test)
+        seconds += seconds_of(test)
+        if seconds >= first_s or len(batch) == most:
+            yield batch
+            batch, seconds, first_s = [], 0.0, 4 * first_s
+    if batch:
+        yield batch
+
+
 class Bench:
     """A copy of the tree with a build of a test program in it."""
 
@@ -289,52 +307,56 @@ class Bench:
             if mutant not in left:
                 mutant.place, mutant.marked = None, True
 
-    def look_at_suites(self, jobs, named, near=None):
-        """How long each suite takes, and which places it runs. Where some are near, others only if they are quick."""
+    def look_at_tests(self, jobs, named, near=None):
+        """How long each test takes, and which places it runs. Where some are near, others only if they are quick."""
         listed = subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
-        suites = [line.split()[0].rstrip(".") for line in listed.splitlines()
-                  if line[:1].strip() and not line.startswith("Running")]
-        self.suites = {}
+        names, suite = [], ""
+        for line in listed.splitlines():
+            if line.startswith("  "):
+                names.append(f"{suite}.{line.split()[0]}")
+            elif not line.startswith("Running"):
+                suite = line.split()[0].rstrip(".")
+        self.tests = {}
 
-        def look(suite):
+        def look(test):
             with tempfile.NamedTemporaryFile() as places:
                 places.write(bytes(PLACES))
                 places.flush()
                 began = time.time()
-                is_near = near is None or near & set(suite.split("/"))
-                code = self.outcome_of([f"{suite}.*"], LONGEST_SUITE_S if is_near else 3, PALPATE_SLIPS_RUN=places.name)
+                near_it = near is None or is_near(test, near)
+                code = self.outcome_of([test], LONGEST_TEST_S if near_it else 3, PALPATE_SLIPS_RUN=places.name)
                 if code == 0:
-                    self.suites[suite] = (time.time() - began, pathlib.Path(places.name).read_bytes())
-                elif is_near or code != TIMED_OUT:
-                    print(f"{suite} fails without any slip, and is left out:\n{self.log()[-800:]}", flush=True)
+                    self.tests[test] = (time.time() - began, pathlib.Path(places.name).read_bytes())
+                elif near_it or code != TIMED_OUT:
+                    print(f"{test} fails without any slip, and is left out:\n{self.log()[-800:]}", flush=True)
 
-        serve(look, [suite for suite in suites if named.search(suite) and not re.search(r"Shared|DISABLED_", suite)], jobs, time.time() + 7200)
-        print(f"{self.target}: {len(self.suites)} suites take {sum(seconds for seconds, _ in self.suites.values()):.0f} s", flush=True)
+        left_out = re.compile(r"Shared|DISABLED_")
+        serve(look, [test for test in names if named.search(test) and not left_out.search(test)], jobs, time.time() + 7200)
+        print(f"{self.target}: {len(self.tests)} tests take {sum(seconds for seconds, _ in self.tests.values()):.0f} s", flush=True)
 
     def outcome_of(self, tests, seconds, **more):
         """The exit code of the program for these tests."""
         with tempfile.TemporaryDirectory() as folder:  # tests of two slips at once do not share files
             return self.run([str(self.program), "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_filter={':'.join(tests)}-*.DISABLED_*"],
-                            seconds, TMPDIR=folder, TEST_TMPDIR=folder, PALPATE_TEST_SECONDS=str(LONGEST_SUITE_S), **more)
+                            seconds, TMPDIR=folder, TEST_TMPDIR=folder, PALPATE_TEST_SECONDS=str(LONGEST_TEST_S), **more)
 
     def judge(self, mutant, without_it=True, quickly=False, **more):
         """seen, timed out (seen, too), survived, not run (by no test), or unsteady: its test fails without the slip, too."""
-        running = [suite for suite, (_, ran) in self.suites.items() if mutant.place is None or ran[mutant.place]]
+        running = [test for test, (_, ran) in self.tests.items() if mutant.place is None or ran[mutant.place]]
         if not running:
             return "not run"
-        names = suites_near(mutant.path)
-        near = [suite for suite in running if names & set(suite.split("/"))]
-        far = sorted((suite for suite in running if suite not in near), key=lambda suite: self.suites[suite][0])
-        quick = [suite for suite in far if self.suites[suite][0] < 0.5]
+        near = suites_near(mutant.path)
+        if quickly:
+            running = [test for test in running if is_near(test, near) or self.tests[test][0] < 0.5]
         unsteady = False
-        slow = [suite for suite in far if suite not in quick and not quickly]
-        for suites in (near, quick, slow):
-            usual = sum(self.suites[suite][0] for suite in suites)
-            code = self.outcome_of([f"{suite}.*" for suite in suites], 20 + 5 * usual, **more) if suites else 0
+        for tests in batches(sorted(running, key=lambda test: self.tests[test][0] * (1 if is_near(test, near) else 4)),
+                             lambda test: self.tests[test][0]):
+            usual = sum(self.tests[test][0] for test in tests)
+            code = self.outcome_of(tests, 20 + 5 * usual, **more)
             if code == TIMED_OUT:  # a slip may also make them run for ever
                 return "timed out"
             if code != 0:
-                failed = re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", self.log(), flags=re.M) or [f"{suite}.*" for suite in suites]
+                failed = re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", self.log(), flags=re.M) or tests
                 if not without_it or self.outcome_of(sorted(set(failed)), 20 + 5 * usual) == 0:
                     return "seen"
                 unsteady = True
@@ -381,7 +403,7 @@ def try_slips(bench, mutants, account, options):
 
     bench.compile_together(mutants)
     near = set().union(*(suites_near(mutant.path) for mutant in mutants)) if options.quickly else None
-    bench.look_at_suites(options.jobs, re.compile(options.suites), near)
+    bench.look_at_tests(options.jobs, re.compile(options.suites), near)
     alone = [mutant for mutant in mutants if mutant.marked]
     together = [mutant for mutant in mutants if not mutant.marked]
     print(f"{bench.target}: {len(together)} slips are chosen at run time, {len(alone)} are compiled alone", flush=True)
@@ -441,13 +463,13 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="slips that are judged beside each other")
     parser.add_argument("--least", type=float, default=0, help="fail below this score")
     parser.add_argument("--again", metavar="FILE", help="only those that survived in the run that printed this file")
-    parser.add_argument("--suites", default="", metavar="REGEX", help="judge by the suites that match alone")
+    parser.add_argument("--suites", default="", metavar="REGEX", help="judge by the tests that match alone")
     parser.add_argument("--without-headers", action="store_true",
                         help="leave out the slips of the sample that lie in headers, after which most is compiled anew")
     parser.add_argument("--equivalents", action="store_true",
                         help="those of .ci/equivalent_mutants")
     parser.add_argument("--quickly", action="store_true",
-                        help="by the suites of a slip's folder and those of others that take less than half a second: more survive")
+                        help="by the tests of a slip's folder and those of others that take less than half a second: more survive")
     parser.add_argument("--list", action="store_true", help="only say which slips were chosen")
     options = parser.parse_args()
 
