@@ -166,6 +166,13 @@ def marks_sent():
 def marks_not_sent():
     nowhere = ["--host", "127.0.0.1", "--port", "1", "--called", "NOBODY", "--calling", "PALPATE", "--get"]
     return run("marks_are_not_sent", patient("ball", "Muster^Erika", 1, "sphere", "--radius", "25"),
+               prepare=lambda _: enter("clinic", nowhere), PALPATE_OTHER=patient("tube", "Mustermann^Max", 2, "tube"))
+
+
+def marks_without_contact():
+    """What would be sent of them is looked at, and not sent."""
+    nowhere = ["--host", "127.0.0.1", "--port", "1", "--called", "NOBODY", "--calling", "PALPATE", "--get"]
+    return run("marks_without_contact_are_called_that", patient("ball", "Muster^Erika", 1, "sphere", "--radius", "25"),
                prepare=lambda _: enter("clinic", nowhere))
 
 
@@ -203,6 +210,7 @@ main({
     "entered_with_tls": entered_with_tls,
     "marks_sent": marks_sent,
     "marks_not_sent": marks_not_sent,
+    "marks_without_contact": marks_without_contact,
     "outline_sent": outline_sent,
     "cancelled": lambda: odd("without-end", "a_fetch_is_cancelled"),
 })

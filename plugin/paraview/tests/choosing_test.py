@@ -24,6 +24,14 @@ def chosen():
     return run("a_scan_is_chosen_in_the_center", PALPATE_DROP=mixed_folder(), PALPATE_OTHER=two_of_a_patient())
 
 
+def first_start():
+    """In a home of its own, in which ParaView has never run: its welcome would come."""
+    def new(home):
+        shutil.rmtree(os.path.join(home, ".config", "ParaView"))
+
+    return run("the_start_page_is_the_welcome", prepare=new)
+
+
 def again():
     folder = phantom("ball", "sphere", "--radius", "25")
     return (run("folders_are_opened_again", PALPATE_DROP=folder) and
@@ -64,6 +72,7 @@ def brain():
 
 main({
     "chosen": chosen,
+    "first_start": first_start,
     "again": again,
     "sampled": sampled,
     "ct_chest": lambda: felt("ct-chest", chest()),

@@ -186,6 +186,8 @@ FOLDERS = {
     "an_outline_is_traced_over_its_surface": spoilt,
     "an_outline_without_an_edge_stays": without_an_edge,
     "margins_are_told": spoilt_beside_a_vessel,
+    "a_press_is_of_what_was_chosen": spoilt_beside_a_vessel,
+    "nothing_moves_under_the_pointer": outlined,
     "marks_belong_to_a_scan": both,
     "slices_are_read_and_measured": named,
     "the_table_is_cut_away": on_a_table,
@@ -200,6 +202,11 @@ SCENARIOS = [
     "the_panel_fits_the_screen",
     "the_panel_speaks_german",
     "one_tab_is_used_again",
+    "nothing_moves_under_the_pointer",
+    "no_text_is_cut_off",
+    "the_notice_is_legible",
+    "a_menu_names_one_thing",
+    "a_missing_folder_is_told_in_the_panel",
     "ones_way_is_found",
     "slices_are_read_and_measured",
     "the_table_is_cut_away",
@@ -213,6 +220,7 @@ SCENARIOS = [
     "small_things_are_right",
     "series_are_listed_in_full",
     "scenes_are_offered_by_the_part",
+    "a_refusal_stands_beside_its_button",
     "words_for_developers_stand_under_technical",
     "a_chosen_look_stays",
     "boundaries_are_drawn_where_they_are_felt",
@@ -245,6 +253,7 @@ SCENARIOS = [
     "no_scan_shown_no_force",
     "a_deleted_scan_comes_back",
     "what_was_deleted_is_not_in_the_state",
+    "a_folder_without_a_scan_takes_nothing_away",
     "a_scan_is_overtaken",
     "a_reset_session_has_no_force",
     "a_loaded_state_has_no_force",
@@ -263,6 +272,7 @@ SCENARIOS = [
     "slices_follow_the_pointer",
     "slices_are_scrolled_upside_down",
     "structures_are_seen_and_felt",
+    "a_press_is_of_what_was_chosen",
     "an_outline_is_corrected",
     "an_outline_is_traced_by_touch",
     "a_ball_is_added",
@@ -328,6 +338,11 @@ def german():
             run("the_setting_says_english", ball(), prepare=english, **there))
 
 
+def not_cut_off():
+    """English words, and German ones, which are longer."""
+    return all([run("no_text_is_cut_off", chest(), LC_ALL=language, LANGUAGE="") for language in ("C.UTF-8", "de_DE.UTF-8")])
+
+
 def marks_last():
     return (run("marks_are_saved", ball()) and run("marks_are_restored", arguments=["--state=" + scratch("marks.pvsm")]) and
             run("marks_are_loaded", phantom("other", "slab")))
@@ -345,6 +360,10 @@ TESTS = {name: lambda name=name: on_its_folder(name) for name in SCENARIOS + BY_
 TESTS["the_layout_is_clinical"] = layout
 TESTS["the_panel_speaks_german"] = german
 TESTS["the_panel_fits_the_screen"] = fits
+TESTS["no_text_is_cut_off"] = not_cut_off
+TESTS["a_folder_without_a_scan_takes_nothing_away"] = lambda: run(
+    "a_folder_without_a_scan_takes_nothing_away", ball(), PALPATE_DROP=bad())
+TESTS["a_missing_folder_is_told_in_the_panel"] = lambda: run("a_missing_folder_is_told_in_the_panel")
 TESTS["marks_are_saved"] = marks_last
 TESTS["a_correction_is_saved"] = correction_last
 TESTS["what_is_to_be_known_is_said"] = told_of_its_scan

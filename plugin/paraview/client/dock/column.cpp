@@ -34,7 +34,6 @@ Column::Column(const Follows& models, const std::function<Eye()>& eye) : strokes
       tr("Palpate %1. Research software, not a medical device.").arg(QStringLiteral(PALPATE_VERSION)), content);
   about->setObjectName(QStringLiteral("palpateAbout"));
   about->setWordWrap(true);
-  about->setEnabled(false);
   column->addWidget(about);
   column->addStretch(1);
 

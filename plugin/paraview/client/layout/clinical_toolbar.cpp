@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "plugin/paraview/client/scan/recent_folders.h"
+#include "plugin/paraview/client/widgets/kept_width.h"
 #include "plugin/paraview/client/widgets/release_button.h"
 
 namespace palpate::plugin {
@@ -145,6 +146,7 @@ void ClinicalToolbar::add_measures() {
 /// Connect and Release.
 void ClinicalToolbar::add_connection() {
   connect_ = add("palpateToolbarConnect", tr("Connect stylus"), {});
+  keep_width(*qobject_cast<QToolButton*>(widgetForAction(connect_)), {tr("Connect stylus"), tr("Disconnect stylus")});
   connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
   release_ = make_release_button(*this, "palpateToolbarRelease", tr("Release  (Esc)"));
   release_->setToolTip(tr("Takes the force away"));

@@ -6,7 +6,6 @@
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QSignalBlocker>
 #include <QToolButton>
 
@@ -16,6 +15,7 @@
 
 #include "modes/scene/boundary_names.h"
 #include "modes/types/mode_type.h"
+#include "plugin/paraview/client/widgets/shortened_edit.h"
 #include "plugin/paraview/client/words/mode_words.h"
 
 namespace palpate::plugin {
@@ -104,9 +104,8 @@ void BoundaryRow::add_switch(QWidget& parent, QGridLayout& grid, int row) {
 }
 
 void BoundaryRow::add_name(QWidget& parent, QGridLayout& grid, int row) {
-  name_ = new QLineEdit(&parent);
+  name_ = new ShortenedEdit(&parent);
   name_->setObjectName(QStringLiteral("palpateName") + QString::number(row));
-  name_->setFrame(false);
   connect(name_, &QLineEdit::editingFinished, this, [this] {
     const QString was = name_of(model_.scene(), mode_);
     if (name_->text() == was) return;

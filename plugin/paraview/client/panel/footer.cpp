@@ -16,6 +16,7 @@
 
 #include "plugin/paraview/client/model/session_state.h"
 #include "plugin/paraview/client/panel/force_strip.h"
+#include "plugin/paraview/client/widgets/kept_width.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/release_button.h"
 #include "plugin/report/summary.h"
@@ -53,36 +54,37 @@ Footer::Footer(SessionController& session, const SceneModel& model, QWidget* par
   grid->setColumnStretch(1, 3);
   add_values(*grid);
   add_technical(*grid);
-  grid->addLayout(make_state(), 6, 0, 1, 3);
-  grid->addLayout(make_buttons(), 7, 0, 1, 3);
+  grid->addLayout(make_state(), 7, 0, 1, 3);
+  grid->addLayout(make_buttons(), 9, 0, 1, 3);
   connect(&session, &SessionController::polled, this, [this](const SessionStatus& look) { show_look(look); });
   connect(&session, &SessionController::connection_changed, this, [this] { show_connection(); });
   show_connection();
 }
 
-/// What is felt now, and in which scan.
+/// What is felt now, and in which scan. The footer ends at the panel's lower edge: what may take another line stands
+/// above all that is pressed, which keeps its place so.
 void Footer::add_values(QGridLayout& grid) {
   force_ = make_value(this, "palpateForce", tr("Force on the stylus"));
   QFont large = force_->font();
   large.setPointSizeF(large.pointSizeF() * 1.4);
   large.setBold(true);
   force_->setFont(large);
-  grid.addWidget(force_, 0, 0);
+  grid.addWidget(force_, 2, 0);
   tissue_ = make_value(this, "palpateTissue", tr("Value of the scan and tissue at the proxy"));
-  grid.addWidget(tissue_, 0, 1, 1, 2);
+  grid.addWidget(tissue_, 2, 1, 1, 2);
   depth_ = make_value(this, "palpateDepth",
                       tr("How far the stylus has gone past the boundary that holds it, in mm in the patient"));
-  grid.addWidget(depth_, 1, 0, 1, 3);  // the longest: a boundary's name, and how well its place is known
+  grid.addWidget(depth_, 3, 0, 1, 3);  // the longest: a boundary's name, and how well its place is known
   strip_ = new ForceStrip(this);
-  grid.addWidget(strip_, 2, 0, 1, 3);
+  grid.addWidget(strip_, 4, 0, 1, 3);
   felt_ = make_value(this, "palpateFelt", tr("Scan, frame and scene that the stylus feels"));
   felt_->setWordWrap(true);
   felt_->setText(tr("No scan is open."));
-  grid.addWidget(felt_, 8, 0, 1, 3);
+  grid.addWidget(felt_, 0, 0, 1, 3);
   distance_ = make_value(this, "palpateDistance",
                          tr("Distance to the nearest structure of the scene; colored inside its margin"));
   distance_->hide();
-  grid.addWidget(distance_, 9, 0, 1, 3);
+  grid.addWidget(distance_, 1, 0, 1, 3);
 }
 
 /// The solver and the tick, which are shown when they are asked for, and the button that records.
@@ -90,8 +92,8 @@ void Footer::add_technical(QGridLayout& grid) {
   solver_ = make_value(this, "palpateSolver",
                        tr("Which solver balanced the forces, and how far from the exact balance the proxy can be"));
   tick_ = make_value(this, "palpateTick", tr("Median time of a tick of the servo, and deadlines that it missed"));
-  grid.addWidget(solver_, 3, 0, 1, 3);
-  grid.addWidget(tick_, 4, 0, 1, 3);
+  grid.addWidget(solver_, 5, 0, 1, 3);
+  grid.addWidget(tick_, 6, 0, 1, 3);
   technical_ = new QToolButton(this);
   technical_->setObjectName(QStringLiteral("palpateTechnical"));
   technical_->setText(tr("Technical"));
@@ -106,13 +108,14 @@ void Footer::add_technical(QGridLayout& grid) {
   });
   technical_->setChecked(QSettings().value(QStringLiteral("palpate/technical"), false).toBool());
   show_technical(technical_->isChecked());
-  grid.addWidget(technical_, 5, 0);
+  grid.addWidget(technical_, 8, 0);
   record_ = new QPushButton(tr("Record…"), this);
   record_->setObjectName(QStringLiteral("palpateRecord"));
+  keep_width(*record_, {tr("Record…"), tr("Stop recording")});
   record_->setToolTip(
       tr("Records all that is felt in a file, to be replayed later. The file holds no patient's name."));
   connect(record_, &QPushButton::clicked, this, [this] { toggle_recording(); });
-  grid.addWidget(record_, 5, 2);
+  grid.addWidget(record_, 8, 2);
 }
 
 /// A lamp, and the state in words.

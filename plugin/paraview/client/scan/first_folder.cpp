@@ -26,9 +26,9 @@ class NoWelcome : public QObject {
 }  // namespace
 
 void open_first_folder(QObject& parent, const std::function<void(const std::string&)>& open) {
+  QCoreApplication::instance()->installEventFilter(new NoWelcome(&parent));
   const QByteArray folder = qgetenv("PALPATE_OPEN");
   if (folder.isEmpty()) return;
-  QCoreApplication::instance()->installEventFilter(new NoWelcome(&parent));
   auto* const waiting = new QTimer(&parent);
   QObject::connect(waiting, &QTimer::timeout, &parent, [waiting, open, folder] {
     if (!pqActiveObjects::instance().activeServer() || !pqActiveObjects::instance().activeView()) return;

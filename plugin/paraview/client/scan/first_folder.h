@@ -7,8 +7,8 @@
 
 namespace palpate::plugin {
 
-/// A folder named on the command line of `plugin/run view`: opened once ParaView has a server to show it with, without
-/// ParaView's welcome in front of it. `parent` ends the wait.
+/// Opens the folder that the command line of `plugin/run view` names, once ParaView has a server to show it with. With a
+/// folder or without one ParaView's welcome is left out: the start page stands there. Both end with `parent`.
 void open_first_folder(QObject& parent, const std::function<void(const std::string&)>& open);
 
 }  // namespace palpate::plugin

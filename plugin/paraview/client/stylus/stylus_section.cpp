@@ -21,6 +21,7 @@
 #include "device/device_type.h"
 #include "device/safety/guardian.h"
 
+#include "plugin/paraview/client/widgets/kept_width.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 
 namespace palpate::plugin {
@@ -77,6 +78,7 @@ void StylusSection::build_connection(QWidget& parent) {
   row->addWidget(look);
   connect_ = new QPushButton(tr("Connect"), &parent);
   connect_->setObjectName(QStringLiteral("palpateConnect"));
+  keep_width(*connect_, {tr("Connect"), tr("Disconnect")});
   connect(connect_, &QPushButton::clicked, this, [this] { connect_or_not(); });
   row->addWidget(connect_);
   column->addLayout(row);

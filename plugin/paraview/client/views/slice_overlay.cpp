@@ -3,9 +3,14 @@
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkPVRenderView.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkStdString.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
+
+#include <QStringList>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -30,6 +35,22 @@ constexpr std::array<Place, 8> text_places{{{beside_bar, 0.5, VTK_TEXT_RIGHT, VT
                                             {beside_bar, 0.985, VTK_TEXT_RIGHT, VTK_TEXT_TOP},
                                             {beside_bar, 0.015, VTK_TEXT_RIGHT, VTK_TEXT_BOTTOM}}};
 constexpr std::size_t letters = 4, corner_text = 4, pointer = 5, identity = 6, place = 7;
+
+/// The line, with "…" in its middle if it is wider than that many pixels: a frame's name begins and ends with what
+/// tells it from the others.
+QString shortened(const QString& line, int pixels, vtkTextProperty& style, int dpi) {
+  const auto width_of = [&](const QString& text) {
+    int box[4] = {};
+    vtkTextRenderer::GetInstance()->GetBoundingBox(&style, text.toStdString(), box, dpi);
+    return box[1] - box[0];
+  };
+  QString shown = line;
+  constexpr int least = 8;
+  for (int kept = static_cast<int>(line.size()) - 1; kept >= least && width_of(shown) > pixels; --kept) {
+    shown = line.left(kept / 2) + QStringLiteral("…") + line.right(kept - kept / 2);
+  }
+  return shown;
+}
 
 }  // namespace
 
@@ -80,7 +101,15 @@ void SliceOverlay::set_identity(const QString& text) {
 }
 
 void SliceOverlay::set_place(const QString& text) {
-  texts_[place]->SetInput(text.toUtf8().constData());
+  constexpr double part = 0.9;
+  const int pixels = static_cast<int>(part * renderer_->GetSize()[0]);
+  if (text == place_ && pixels == place_pixels_) return;
+  place_ = text;
+  place_pixels_ = pixels;
+  QStringList lines = text.split(QLatin1Char('\n'));
+  const int dpi = view_.GetRenderWindow()->GetDPI();
+  for (QString& line : lines) line = shortened(line, pixels, *texts_[place]->GetTextProperty(), dpi);
+  texts_[place]->SetInput(lines.join(QLatin1Char('\n')).toUtf8().constData());
 }
 
 void SliceOverlay::set_texts_visible(bool visible) {

@@ -33,6 +33,7 @@ class SliceOverlay {
 
   void set_corner(const QString& text);
   void set_identity(const QString& text);
+  /// A line that is wider than the view is shortened in its middle.
   void set_place(const QString& text);
   /// All but the letters, which tell left from right.
   void set_texts_visible(bool visible);
@@ -48,7 +49,8 @@ class SliceOverlay {
   vtkPVRenderView& view_;
   std::function<void(int)> before_drawing_;
   std::array<vtkNew<vtkTextActor>, 8> texts_;  // right, left, top, bottom; corner, pointer, identity, place
-  QString pointer_;
+  QString pointer_, place_;
+  int place_pixels_ = 0;
   EventWatch before_render_;
 };
 

@@ -92,6 +92,16 @@ void frames_are_felt_as_shown() {
   const int stream = qGray(faster.pixel(faster.width() / 4, faster.height() * 3 / 4));
   expect(stream > 60 && stream < 230, "a faster frame is neither black nor white: " + std::to_string(stream));
   save_screen("frame-2");
+  QWidget& window = *pqCoreUtilities::mainWidget();
+  const QRect wide = window.geometry();
+  window.setGeometry(wide.x(), wide.y(), 700, wide.height());
+  wait_for(
+      "a long name is shortened in a narrow view",
+      [] { return place_text("Axial").contains(QStringLiteral("…")) && place_text("Axial").endsWith("2 of 5"); }, 20);
+  save_screen("frame-narrow");
+  window.setGeometry(wide);
+  wait_for(
+      "and whole in a wide one", [] { return !place_text("Axial").contains(QStringLiteral("…")); }, 20);
   const auto trigger = [](const char* action) {
     auto* const found = pqCoreUtilities::mainWidget()->findChild<QAction*>(QString::fromLatin1(action));
     expect(found != nullptr, std::string("ParaView has ") + action);

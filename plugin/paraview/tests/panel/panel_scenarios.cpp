@@ -456,6 +456,7 @@ void run_scenario(const std::string& name) {
                                       &interchange_scenarios(),
                                       &language_scenarios(),
                                       &layout_scenarios(),
+                                      &legible_scenarios(),
                                       &mark_scenarios(),
                                       &sent_mark_scenarios(),
                                       &picture_scenarios(),

@@ -36,6 +36,7 @@ const Scenarios& heap_scenarios();
 const Scenarios& interchange_scenarios();
 const Scenarios& language_scenarios();
 const Scenarios& layout_scenarios();
+const Scenarios& legible_scenarios();
 const Scenarios& mark_scenarios();
 const Scenarios& picture_scenarios();
 const Scenarios& profile_scenarios();

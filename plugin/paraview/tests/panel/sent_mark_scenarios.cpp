@@ -3,7 +3,9 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QFile>
+#include <QPlainTextEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 
 #include <string>
 
@@ -56,6 +58,41 @@ void marks_are_not_sent() {
     return label("palpateMarkMessage").contains("clinic (127.0.0.1:1) cannot be reached (connection refused)");
   });
   expect(find<QPushButton>("palpateSendMarks").isEnabled(), "it can be tried again");
+  // What was said of this patient's marks does not stay beside the next one's name.
+  const unsigned before = reader_in_pipeline();
+  drop_folder(qEnvironmentVariable("PALPATE_OTHER"));  // the marks wait for their scan
+  another_scan_is_shown(before);
+  expect(label("palpateMarkMessage").isEmpty(), "of another's marks nothing is said");
+  has_rows(0, "the other patient has no marks");
+  const std::string kept = marks_text();
+  click("palpateUndoMark");
+  wait_ms(500);
+  expect(mark_list().topLevelItemCount() == 0 && marks_text() == kept, "and no step of the patient before is undone");
+}
+
+/// In free space, where nothing is held: a key that is tapped while the hand moves, and one that is kept down.
+void marks_without_contact_are_called_that() {
+  scan_is_shown();
+  connect_stylus();
+  QWidget& coronal = view("Coronal");
+  step("Next", 8);
+  press_key_in(coronal, "m");
+  step_hand(coronal, "Left");
+  has_rows(1, "a key that is tapped makes a mark");
+  expect(number("palpateForce") == 0, "nothing is felt there");
+  expect(kept_marks().paths.empty() && kept_marks().points.size() == 1, "and no path");
+  hold_key_in(coronal, "m", true);
+  step("Left", 8);
+  hold_key_in(coronal, "m", false);
+  has_rows(2, "one that is kept down makes a path");
+  in_dialog("palpateSendMarks", [](QDialog& dialog) {
+    const QString report = find<QPlainTextEdit>("palpateSendReport").toPlainText().replace('\n', '|');
+    const QRegularExpression all(
+        "^Mark 1: [LR] [^|]*, no boundary felt, value [^|]* HU, 0.00 N\\|Path 1, without contact: [0-9.]+ mm\\|$");
+    expect(all.match(report).hasMatch(), "before it is sent, the report says that: " + report.toStdString());
+    save_screen("marks-without-contact");
+    dialog.reject();
+  });
 }
 
 }  // namespace
@@ -64,6 +101,7 @@ const Scenarios& sent_mark_scenarios() {
   static const Scenarios scenarios{
       {"marks_are_sent", marks_are_sent},
       {"marks_are_not_sent", marks_are_not_sent},
+      {"marks_without_contact_are_called_that", marks_without_contact_are_called_that},
   };
   return scenarios;
 }

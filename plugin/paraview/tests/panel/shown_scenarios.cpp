@@ -18,6 +18,7 @@
 #include <QFile>
 #include <QListWidget>
 #include <QPushButton>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include <algorithm>
@@ -137,6 +138,7 @@ void a_reset_session_has_no_force() {
   wait_ms(1000);
   wait_for(
       "nothing is said to be felt", [] { return label("palpateFelt") == "No scan is open."; }, 20);
+  expect(label("palpateTissue").isEmpty(), "and no value: " + label("palpateTissue").toStdString());
   drop_folder(qEnvironmentVariable("PALPATE_OPEN"));
   scan_is_shown();
   expect_ready_to_feel();
@@ -228,6 +230,20 @@ std::string series_in_pipeline() {
   return vtkSMPropertyHelper(reader().getProxy(), "SeriesUid").GetAsString();
 }
 
+/// A folder without a scan is dropped while one is shown: what the panel says of the scan, and what views show, agree.
+void a_folder_without_a_scan_takes_nothing_away() {
+  feel();
+  const QString felt = label("palpateFelt");
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  wait_for("it is said that there is none", [] { return label("palpateMessage").startsWith("No image series"); });
+  let_go();
+  expect_four_views_of_one_scan();
+  expect(label("palpateFelt") == felt, "the scan is still named: " + label("palpateFelt").toStdString());
+  expect(find<QPushButton>("palpateConnect").text() == "Disconnect", "the stylus is still connected");
+  save_screen("junk-dropped");
+  press();
+}
+
 /// Clicks on a row of the list of series, and returns while its views are being made: the reader that they are of.
 unsigned half_shown(int row) {
   const unsigned before = reader_in_pipeline();
@@ -237,6 +253,7 @@ unsigned half_shown(int row) {
     return reader_in_pipeline() != 0 && reader_in_pipeline() != before && views_open() >= 2 &&
            find<QWidget>("palpateCover").isVisible();
   });
+  expect(find<QToolButton>("palpateScanSectionFold").text().contains("Opening"), "it is said whose scan is coming");
   return reader_in_pipeline();
 }
 
@@ -306,6 +323,7 @@ const Scenarios& shown_scenarios() {
       {"a_reset_session_has_no_force", a_reset_session_has_no_force},
       {"a_loaded_state_has_no_force", a_loaded_state_has_no_force},
       {"undo_belongs_to_a_scan", undo_belongs_to_a_scan},
+      {"a_folder_without_a_scan_takes_nothing_away", a_folder_without_a_scan_takes_nothing_away},
       {"a_scan_is_overtaken", a_scan_is_overtaken},
       {"what_was_deleted_is_not_in_the_state", what_was_deleted_is_not_in_the_state},
   };

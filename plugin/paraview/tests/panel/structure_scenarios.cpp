@@ -1,6 +1,9 @@
 #include <QAction>
 #include <QDoubleSpinBox>
 #include <QImage>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QLabel>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -107,9 +110,42 @@ void structures_are_seen_and_felt() {
          "with its file: " + label("palpateStructureMessage").toStdString());
 }
 
+/// Two presses while the first one's structure is still being read, each with a row of its own chosen.
+void a_press_is_of_what_was_chosen() {
+  scan_is_shown();
+  click("palpateStructuresSectionFold");
+  wait_for(
+      "two structures are listed", [] { return list().topLevelItemCount() == 2; }, 60);
+  const auto row_of = [](const char* name) {
+    const auto found = list().findItems(QLatin1String(name), Qt::MatchExactly);
+    expect(found.size() == 1, std::string(name) + " is listed once");
+    return found.front();
+  };
+  scroll_to(find<QWidget>("palpateStructureKeepOut"));
+  list().setCurrentItem(row_of("Liver"));
+  click("palpateStructureBoundary");
+  list().setCurrentItem(row_of("Vessel"));
+  click("palpateStructureKeepOut");
+  list().setCurrentItem(row_of("Liver"));
+  wait_for(
+      "both are done", [] { return scene_has("Liver") && scene_has("Vessel"); }, 60);
+  std::vector<QString> made;
+  const auto scene = QJsonDocument::fromJson(QByteArray::fromStdString(steady_scene())).object();
+  for (const auto& mode : scene["modes"].toArray()) {
+    const QJsonObject one = mode.toObject();
+    if (one.contains("structure")) made.push_back(one["type"].toString() + " of " + one["structure"].toString());
+  }
+  std::ranges::sort(made);
+  std::string told;
+  for (const QString& one : made) told += one.toStdString() + "; ";
+  expect(made == std::vector<QString>{"keep_out of Vessel", "surface of Liver"},
+         "a boundary of the first and a margin around the second, once each: " + told);
+}
+
 }  // namespace
 
 const Scenarios& structure_scenarios() {
-  static const Scenarios all{{"structures_are_seen_and_felt", structures_are_seen_and_felt}};
+  static const Scenarios all{{"structures_are_seen_and_felt", structures_are_seen_and_felt},
+                             {"a_press_is_of_what_was_chosen", a_press_is_of_what_was_chosen}};
   return all;
 }

@@ -1,5 +1,6 @@
 // What a tuned scene shows of itself, and small things of the panel that were once wrong.
 
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -11,6 +12,7 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QProcess>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollArea>
 #include <QString>
@@ -241,6 +243,42 @@ void scenes_are_offered_by_the_part() {
       "it is taken", [] { return QString::fromStdString(scene_text()).contains("CT: chest"); }, 20);
 }
 
+/// What was refused is said in the section in which it was pressed, in red, and nowhere else; and it goes back.
+void a_refusal_stands_beside_its_button() {
+  scan_is_shown();
+  connect_stylus();
+  // As many modes as a scene can have.
+  click("palpateModesSectionFold");
+  QAction& add = *widget("palpateModes")->findChild<QAction*>("palpateAdd_friction");
+  for (int n = 0; n < 100 && !find<QLabel>("palpateModesMessage").isVisible(); ++n) {
+    add.trigger();
+    handle_events(5);
+  }
+  const std::string scene = steady_scene();
+  const auto is_refused = [&](const char* message, const char* words) {
+    wait_for(
+        std::string(message) + " says: " + words,
+        [&] { return find<QLabel>(message).isVisible() && label(message).contains(words); }, 20);
+    expect(find<QLabel>(message).styleSheet().contains("bold"), "as a problem");
+    for (const char* const other : {"palpateMessage", "palpateModesMessage", "palpateFilterMessage",
+                                    "palpateStylusMessage", "palpateCurveMessage", "palpateSceneMessage"}) {
+      expect(std::string(other) == message || !label(other).contains(words), std::string(other) + " does not");
+    }
+    expect(steady_scene() == scene, "the scene is as it was");
+  };
+  auto& modes = find<QListWidget>("palpateModeList");
+  const int listed = modes.count();
+  add.trigger();
+  is_refused("palpateModesMessage", "modes");
+  expect(modes.count() == listed, "the list has the modes that are felt");
+  scroll_to(find<QLabel>("palpateModesMessage"));
+  save_screen("refused-mode");
+  // A recording that cannot be written.
+  name_file("palpateRecord", "/proc/session.h5");
+  is_refused("palpateStylusMessage", "/proc/session.h5");
+  expect(find<QPushButton>("palpateRecord").text() != "Stop recording", "nothing is recorded");
+}
+
 void words_for_developers_stand_under_technical() {
   scan_is_shown();
   auto& technical = find<QToolButton>("palpateTechnical");
@@ -282,6 +320,7 @@ const Scenarios& tuning_scenarios() {
       {"a_scene_shows_what_it_does", a_scene_shows_what_it_does},
       {"small_things_are_right", small_things_are_right},
       {"scenes_are_offered_by_the_part", scenes_are_offered_by_the_part},
+      {"a_refusal_stands_beside_its_button", a_refusal_stands_beside_its_button},
       {"words_for_developers_stand_under_technical", words_for_developers_stand_under_technical},
       {"series_are_listed_in_full", series_are_listed_in_full}};
   return scenarios;

@@ -168,8 +168,11 @@ void the_end_is_asked_about() {
   in_dialog_of(
       "a state among the recent files", [&] { choose_recent(saved); },
       [](QDialog& question) { answer(question, "Cancel"); });
-  in_dialog_of(
-      "a state that is dropped", [&] { drop_on_window(saved); }, [](QDialog& question) { answer(question, "Cancel"); });
+  for (const QString& dropped : {saved, beside_pictures("a picture with a state.png")}) {
+    in_dialog_of(
+        "a state that is dropped", [&] { drop_on_window(dropped); },
+        [](QDialog& question) { answer(question, "Cancel"); });
+  }
   wait_ms(300);
   expect(window.isVisible() && reader_in_pipeline() != 0, "no state takes the place of what is open");
   in_next_file_dialog([](QDialog& dialog, QLineEdit&) { dialog.reject(); });
