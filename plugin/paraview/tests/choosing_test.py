@@ -7,17 +7,10 @@ import os
 import shutil
 import subprocess
 
-from mixed_folder import as_mr, mixed_folder, set_headers
+from mixed_folder import as_mr, mixed_folder, set_headers, two_of_a_patient
 from panel_program import PROGRAMS, main, phantom, run, scratch
 
 HEAD = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
-
-
-def two_of_a_patient():
-    folder = phantom("erika", "sphere", "--radius", "25")
-    shutil.move(phantom("erika-second", "sphere", "--radius", "18"), os.path.join(folder, "second"))
-    return set_headers(folder, PatientName="Muster^Erika", PatientID="P1", StudyDate="20260101",
-                       StudyInstanceUID="1.2.826.0.1.3680043.10.1.1")
 
 
 def chosen():

@@ -3,10 +3,14 @@
 Arguments as in panel_program.py, then the folder. PALPATE_PICTURES_ALONE names those scenarios that are run alone.
 """
 
+import math
 import os
+import shutil
+import subprocess
 import sys
 
 from made_segmentation import is_in_cut_ball, write_segmentation
+from mixed_folder import mixed_folder, two_of_a_patient
 from panel_program import ASKED, ball, run, scratch
 
 PICTURES = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", "docs", "pictures"))
@@ -20,9 +24,44 @@ def spoilt():
     return folder
 
 
+def outlined_head():
+    """The head with a lesion that was made."""
+    folder = scratch("outlined-head")
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(head, folder)
+    write_segmentation(os.path.join(folder, "lesion.dcm"), folder, name="Lesion",
+                       is_in=lambda *at: math.dist(at, (18, 4, 12)) < 11 + 2 * math.sin(at[0] / 3) * math.cos(at[1] / 4))
+    return folder
+
+
+def as_screen(scenario, screens, *arguments, **more):
+    """Screens that a scenario leaves, as pictures of the guide: name there -> (name here, what is cut out of it)."""
+    if not run(scenario, *arguments, **more):
+        return False
+    for screen, (name, cut) in screens.items():
+        subprocess.run(["convert", scratch(f"panel-{screen}.png"), *(["-crop", cut, "+repage"] if cut else []),
+                        os.path.join(PICTURES, name + ".png")], check=True)
+    return True
+
+
+def chosen():
+    return as_screen("a_scan_is_chosen_in_the_center", {"start-cards": ("cards", None)}, screen="1366x768",
+                     PALPATE_DROP=mixed_folder(), PALPATE_OTHER=two_of_a_patient())
+
+
+def marked():
+    return as_screen("marks_are_where_the_stylus_was", {"marks": ("marks", "1152x762+0+0")}, ball(), screen="1366x768")
+
+
 head = os.path.abspath(ASKED[0])
-folders = {"guide_pictures": lambda: head, "guide_fault": lambda: head, "an_outline_is_corrected": spoilt}
-for scenario in os.environ.get("PALPATE_PICTURES_ALONE", " ".join(folders)).split():
-    more = {"screen": "1280x860"} if scenario == "an_outline_is_corrected" else {}
-    if not run(scenario, folders[scenario](), PALPATE_GUIDE=PICTURES, **more):
+scenarios = {
+    "guide_pictures": lambda: run("guide_pictures", head, PALPATE_GUIDE=PICTURES),
+    "guide_structures": lambda: run("guide_structures", outlined_head(), screen="1366x768", PALPATE_GUIDE=PICTURES),
+    "guide_fault": lambda: run("guide_fault", head, PALPATE_GUIDE=PICTURES),
+    "an_outline_is_corrected": lambda: run("an_outline_is_corrected", spoilt(), screen="1280x860", PALPATE_GUIDE=PICTURES),
+    "cards": chosen,
+    "marks": marked,
+}
+for scenario in os.environ.get("PALPATE_PICTURES_ALONE", " ".join(scenarios)).split():
+    if not scenarios[scenario]():
         sys.exit("the pictures could not be made: see above")

@@ -54,3 +54,10 @@ def mixed_folder():
         file.write("This is no scan.")
     open(os.path.join(folder, "empty.dcm"), "w").close()
     return folder
+
+
+def two_of_a_patient():
+    folder = phantom("erika", "sphere", "--radius", "25")
+    shutil.move(phantom("erika-second", "sphere", "--radius", "18"), os.path.join(folder, "second"))
+    return set_headers(folder, PatientName="Muster^Erika", PatientID="P1", StudyDate="20260101",
+                       StudyInstanceUID="1.2.826.0.1.3680043.10.1.1")

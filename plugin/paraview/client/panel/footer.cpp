@@ -254,10 +254,12 @@ void Footer::show_look(const SessionStatus& look) {
   force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));
   const double depth_mm = glm::length(look.proxy_mm - look.probe_mm);
   const QString depth = tr("%1 mm").arg(depth_mm, 0, 'f', 1);
-  depth_->setText(look.force_n == 0   ? tr("no boundary touched")
-                  : look.held.empty() ? tr("%1 behind the proxy").arg(depth)
-                                      : tr("%1 past %2").arg(depth, QString::fromStdString(look.held)));
-  depth_->setToolTip(depth_->text());
+  const QString past = look.force_n == 0   ? tr("no boundary touched")
+                       : look.held.empty() ? tr("%1 behind the proxy").arg(depth)
+                                           : tr("%1 past %2").arg(depth, QString::fromStdString(look.held));
+  // What is cut out of a long name stands in the tool tip; depth and error stay.
+  depth_->setText(depth_->fontMetrics().elidedText(past, Qt::ElideMiddle, depth_->width()));
+  depth_->setToolTip(past);
   const QString tissue = QString::fromStdString(look.tissue);
   const std::string unit = session_.live().scan() ? session_.live().scan()->unit : std::string();
   // Else the tick is of a scan that is gone.

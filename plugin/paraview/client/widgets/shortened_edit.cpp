@@ -14,7 +14,7 @@ ShortenedEdit::ShortenedEdit(QWidget* parent) : QLineEdit(parent) {
 void ShortenedEdit::paintEvent(QPaintEvent* event) {
   constexpr int beside = 2;  // QLineEdit's own margin on either side
   const QRect room = contentsRect().adjusted(beside, 0, -beside, 0);
-  const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, room.width());
+  const QString shown = fontMetrics().elidedText(text(), Qt::ElideMiddle, room.width());
   if (hasFocus() || shown == text()) return QLineEdit::paintEvent(event);
   QPainter painter(this);
   QStyleOptionFrame frame;

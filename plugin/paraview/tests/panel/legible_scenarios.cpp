@@ -102,8 +102,10 @@ void nothing_moves_under_the_pointer() {
   expect_in_place(before, "where the stylus is disconnected");
 }
 
+/// With "…" at its end or in its middle.
 bool is_shortened(const QString& shown, const QString& whole) {
-  return shown.endsWith(QStringLiteral("…")) && whole.startsWith(shown.chopped(1).trimmed());
+  const auto cut = shown.indexOf(QStringLiteral("…"));
+  return cut >= 0 && whole.startsWith(shown.left(cut).trimmed()) && whole.endsWith(shown.mid(cut + 1).trimmed());
 }
 
 /// How many pixels of a text do not fit; 0: it is whole, or its tool tip says all of it.

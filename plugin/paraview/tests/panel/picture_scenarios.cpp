@@ -10,6 +10,7 @@
 #include <QScreen>
 #include <QSlider>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <QWidget>
 #include <QWindow>
 
@@ -100,6 +101,24 @@ void guide_pictures() {
   save_section("recordings", "palpateRecordingsSection");
 }
 
+/// Of a scan with a segmentation.
+void guide_structures() {
+  arrange({1366, 768}, 420);
+  scan_is_shown();
+  fold("palpateScanSection", false);
+  fold("palpateStructuresSection", true);
+  auto& list = find<QTreeWidget>("palpateStructureList");
+  wait_for(
+      "the structure is measured",
+      [&] { return list.topLevelItemCount() == 1 && !list.topLevelItem(0)->text(1).isEmpty(); }, 60);
+  list.setCurrentItem(list.topLevelItem(0));
+  click("palpateStructureKeepOut");
+  wait_for(
+      "it is kept out of", [] { return steady_scene().find("keep_out") != std::string::npos; }, 20);
+  views_rest();
+  save("structures", QRect(0, 0, 1366, 768));
+}
+
 void guide_fault() {
   scan_is_shown();
   connect_stylus();
@@ -112,6 +131,7 @@ void guide_fault() {
 }  // namespace
 
 const Scenarios& picture_scenarios() {
-  static const Scenarios scenarios{{"guide_pictures", guide_pictures}, {"guide_fault", guide_fault}};
+  static const Scenarios scenarios{
+      {"guide_pictures", guide_pictures}, {"guide_structures", guide_structures}, {"guide_fault", guide_fault}};
   return scenarios;
 }
