@@ -19,14 +19,14 @@ namespace palpate::io {
 
 struct FilterType;
 
-/// Every type reads some of these.
+/// Settings of a filter. Each type reads some of them.
 struct Filter {
   const FilterType* type = nullptr;  ///< null: no filter
   double sigma_mm = 1;               ///< standard deviation of the weights over the distance
   int width = 3;                     ///< voxels along an edge of the square, 3 or 5
-  double sigma_value = 30;           ///< values that differ by less are alike; the scan's unit
+  double sigma_value = 30;           ///< values that differ by less count as equal; the scan's unit
 
-  /// Of what the type reads.
+  /// Compares the type and the settings that the type reads.
   bool operator==(const Filter& other) const noexcept;
 };
 
@@ -35,23 +35,23 @@ struct FilterType {
   std::string_view title;    ///< for people
   std::string_view summary;  ///< one line for people: what it does to noise and edges
   bool reads_sigma_mm = false, reads_width = false, reads_sigma_value = false;
-  bool reaches_across = false;  ///< whether its in_slice() is followed by a Gaussian of sigma_mm across the slices
+  bool reaches_across = false;  ///< whether a Gaussian of sigma_mm across the slices follows in_slice()
   std::string (*in_words)(const Filter& filter) = nullptr;
-  /// Of the rescaled values of one slice (CV_32F).
+  /// Filters the rescaled values of one slice (CV_32F).
   cv::Mat (*in_slice)(const cv::Mat& values, const Geometry& geometry, const Filter& filter) = nullptr;
-  /// Variance of its blur along a unit direction, mm^2; null where edges stay.
+  /// Variance of the blur along a unit direction, mm^2. Null if the filter keeps edges.
   double (*blur)(const Geometry& geometry, const Filter& filter, const Vec3& direction) = nullptr;
 };
 
 /// All types of filter.
 std::span<const FilterType* const> filter_types();
-/// Null where there is none of that name.
+/// Null if no type has that name.
 const FilterType* find_filter_type(std::string_view name);
 
 /// "Gaussian filter of 1 mm"; "no filter".
 std::string in_words(const Filter& filter);
 
-/// Throws std::invalid_argument that names what cannot be: "sigma_mm: 0 mm is no width; give 0.1 to 10 mm".
+/// Throws std::invalid_argument that names a setting out of range: "sigma_mm: 0 mm is no width; give 0.1 to 10 mm".
 void validate(const Filter& filter);
 
 }  // namespace palpate::io

@@ -1,7 +1,7 @@
 #pragma once
 
-/// PALPATE_FOR_PROCESSOR before a function: compiled twice, and the one with 256-bit vectors is taken where the
-/// processor has them. The results are the same to the last bit: every lane does what the plain code does, and the
+/// PALPATE_FOR_PROCESSOR before a function: the function is compiled twice. The version with 256-bit vectors runs if
+/// the processor has them. The results are the same to the last bit: every lane does what the plain code does, and the
 /// project is compiled without fused operations. (Sanitizers cannot follow the choice, which is made before they are
 /// set up.)
 
@@ -21,8 +21,8 @@
 #endif
 #endif
 
-/// Before a loop whose turns do not depend on each other: what it writes, it does not read elsewhere. (clang finds out
-/// by itself, and would complain where a sanitizer keeps it from making use of it.)
+/// Before a loop whose iterations are independent: none reads what another one writes. (clang finds that out by itself,
+/// and would warn if a sanitizer keeps it from using it.)
 #ifdef __clang__
 #define PALPATE_INDEPENDENT
 #else

@@ -14,7 +14,7 @@ class FreshFolder {
   explicit FreshFolder(std::filesystem::path final_path, Readable readable = Readable::by_all);
   FreshFolder(const FreshFolder&) = delete;
   FreshFolder& operator=(const FreshFolder&) = delete;
-  /// Removes what was written unless it was committed.
+  /// Removes the files unless they were committed.
   ~FreshFolder();
 
   /// Where to write.
@@ -31,8 +31,8 @@ class FreshFolder {
 /// files that name a patient.
 FreshFolder temporary_folder();
 
-/// Lets `write` fill a fresh folder, and commits the folder when `write` returns. With an empty `final_path` nothing is
-/// to be written, and `write` gets the empty path.
+/// Lets `write` fill a fresh folder, and commits the folder when `write` returns. If `final_path` is empty, no folder
+/// is made, and `write` gets the empty path.
 void write_all_or_none(const std::filesystem::path& final_path,
                        const std::function<void(const std::filesystem::path& folder)>& write);
 

@@ -15,7 +15,7 @@ using Vec3 = glm::dvec3;
 /// Voxel centers: position(i, j, k) = slice_positions[k] + i * spacing_i * direction_i + j * spacing_j * direction_j.
 ///
 /// i counts columns, j rows, k slices; slices ascend along direction_i x direction_j. The step from a slice to the next
-/// need not be perpendicular to the slices (gantry tilt) nor the same everywhere.
+/// need not be perpendicular to the slices (gantry tilt), and may vary.
 struct Geometry {
   glm::ivec3 dimensions{0};           ///< columns, rows, slices
   Vec3 direction_i{1, 0, 0};          ///< unit: along a row, towards growing column
@@ -27,7 +27,7 @@ struct Geometry {
   /// Mean vector from a slice to the next, mm. With a single slice it is the unit normal times the slice's
   /// thickness.
   Vec3 step{0, 0, 1};
-  /// Whether every step is the mean one (to the tolerance that the reader states).
+  /// Whether every step equals the mean step, within the tolerance that the reader states.
   bool uniform = true;
   /// Intervals k (from slice k to k + 1) where slices are missing: ascending. Nothing is felt inside them.
   std::vector<int> gaps;
@@ -35,7 +35,7 @@ struct Geometry {
   /// Patient position of a continuous voxel index, mm.
   Vec3 to_patient(const Vec3& index) const noexcept;
   /// Continuous voxel index of a patient position (mm). Exact at voxel centers, even if slices are unevenly spaced, and
-  /// linear between them. Outside the volume the nearest step is continued.
+  /// linear between them. Outside the volume it is extrapolated with the nearest step.
   Vec3 to_index(const Vec3& position_mm) const noexcept;
   /// Whether an index lies within the hull of the voxel centers.
   bool contains(const Vec3& index) const noexcept;

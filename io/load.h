@@ -24,7 +24,8 @@ struct LoadOptions {
   bool is_rescaled = false;
 };
 
-/// The voxels of one frame of a series; as stored, with the slope and intercept of Volume, unless they are rescaled. A
+/// The voxels of one frame of a series: stored values, with the slope and intercept in Volume, unless rescaled values
+/// are asked for. A
 /// velocity field (Catalogue::velocity_fields) gives its three directions and the speed, m/s. Decodes files in
 /// parallel, and needs little more memory than the volume. A slice that cannot be decoded becomes a gap and is named in
 /// Volume::warnings. Throws DicomError if nothing can be read, or the series holds no scalar images with a position;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which stored values of a volume are padding, as whole rows of them are asked.
+/// Which stored values of a volume are padding. Whole rows are tested at once.
 
 #include <algorithm>
 #include <bit>
@@ -13,7 +13,7 @@
 
 namespace palpate::io::internal {
 
-/// 1 for what is infinite or not a number, else 0.
+/// 1 for infinity and NaN, else 0.
 inline std::uint32_t is_infinite(float value) noexcept {
   constexpr std::uint32_t exponent = 0x7f800000;  // all bits set
   return static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & exponent) == exponent);
@@ -30,18 +30,18 @@ class StoredPadding {
     if (second < static_cast<double>(Limits::lowest()) || first > static_cast<double>(Limits::max())) return;
     low_ = static_cast<Stored>(std::max(first, static_cast<double>(Limits::lowest())));
     high_ = static_cast<Stored>(std::min(second, static_cast<double>(Limits::max())));
-    // What was rounded outwards is no padding.
+    // A bound that was rounded outwards is not padding itself.
     if (static_cast<double>(low_) < first) low_ = next(low_, Limits::max());
     if (static_cast<double>(high_) > second) high_ = next(high_, Limits::lowest());
   }
 
   /// Whether a voxel may be padding.
   bool possible() const noexcept { return std::is_floating_point_v<Stored> || low_ <= high_; }
-  /// Whether there is a range of them, beside what is not finite.
+  /// Whether there is a range of padding values, in addition to infinity and NaN.
   bool has_range() const noexcept { return low_ <= high_; }
   Stored low() const noexcept { return low_; }
   Stored high() const noexcept { return high_; }
-  /// 1 for padding, 0 for a value; without branches, for the compiler to take many at once.
+  /// 1 for padding, 0 for a value. Without branches, so that the compiler can vectorize it.
   std::uint32_t operator()(Stored stored) const noexcept {
     const std::uint32_t within =
         static_cast<std::uint32_t>(stored >= low_) & static_cast<std::uint32_t>(stored <= high_);

@@ -4,11 +4,11 @@
 
 namespace palpate::io::internal {
 
-/// Asks the kernel for large pages where this memory is not in use yet. Only a hint, as is the other.
+/// Asks the kernel for large pages for memory that is not in use yet. Both functions are only hints.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// Has the kernel hand out the pages of fresh memory, large ones where it can, on `threads` threads (0: all cores), so
-/// that nobody need wait for them one by one.
+/// Has the kernel allocate the pages of fresh memory at once, large ones if possible, on `threads` threads (0: all
+/// cores). Otherwise each first access to a page would wait for it.
 void hand_out_pages(void* memory, std::size_t bytes, int threads);
 
 }  // namespace palpate::io::internal

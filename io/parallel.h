@@ -7,9 +7,9 @@
 
 namespace palpate::io::internal {
 
-/// work(0) ... work(count - 1) on `threads` threads (0: all cores), the caller's among them; each index once, in no
-/// order. Rethrows the first exception of `work` after all threads have stopped; throws Cancelled when `progress` says
-/// so.
+/// Calls work(0) ... work(count - 1), each once and in no fixed order, on `threads` threads (0: all cores), one of
+/// which is the caller's. Rethrows the first exception of `work` after all threads have stopped. Throws Cancelled if
+/// `progress` returns false.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work, const Progress& progress,
                   int threads);
 

@@ -7,7 +7,7 @@
 
 namespace palpate::io {
 
-/// The index of the quantile of a fraction (0 to 1) among `count` values in ascending order; the upper one of two.
+/// The index of the quantile of a fraction (0 to 1) among `count` values in ascending order; the upper of two.
 /// Never beyond the last. `count` must be above 0.
 inline std::size_t quantile_place(std::size_t count, double fraction) {
   return std::min(static_cast<std::size_t>(fraction * static_cast<double>(count)), count - 1);
@@ -21,7 +21,7 @@ inline double quantile(std::vector<double> values, double fraction) {
   return *at;
 }
 
-/// The same for values that are in ascending order already.
+/// The same for values that are already in ascending order.
 inline double quantile_of_sorted(std::span<const double> values, double fraction) {
   return values.empty() ? 0 : values[quantile_place(values.size(), fraction)];
 }

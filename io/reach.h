@@ -1,6 +1,6 @@
 #pragma once
 
-/// What places and spacings a scan of a patient can have. A header beyond these is damaged.
+/// Limits of the positions and spacings that a scan of a patient can have. A header beyond them is damaged.
 
 namespace palpate::io::internal {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Finds the series in folders. Every file is judged by its content; images are grouped into series that can become a
-/// volume; what is set apart is listed with a reason. Only headers are read here; load() reads the voxels.
+/// volume; files that are set apart are listed with a reason. Only headers are read here; load() reads the voxels.
 
 #include <filesystem>
 #include <memory>
@@ -29,7 +29,7 @@ struct Series {
   std::string part;
   std::string unit;  ///< of the rescaled values: "HU", or empty where the modality has none
 
-  /// How it was acquired, so that a user can tell it from others. Empty where the file does not say.
+  /// How it was acquired, so that a user can tell it from others. Empty if the file does not say.
   struct Details {
     std::optional<int> number;     ///< SeriesNumber
     std::string date;              ///< SeriesDate, else AcquisitionDate or StudyDate: YYYYMMDD
@@ -46,7 +46,7 @@ struct Series {
     double compression_ratio = 0;  ///< LossyImageCompressionRatio; 0 where unknown
   } details;
 
-  std::vector<std::filesystem::path> files;    ///< that hold its slices, in the order of the slices
+  std::vector<std::filesystem::path> files;    ///< in the order of the slices that they hold
   std::vector<std::string> transfer_syntaxes;  ///< UIDs, sorted, each once
   Geometry geometry;                           ///< of its first frame
   /// How many images lie at a position (time, b-value, echo, phase): each is a frame, a volume of its own.
@@ -87,13 +87,14 @@ struct SkippedFile {
 struct Catalogue {
   std::vector<Series> series;        ///< usable ones first, then by date and UID of the study, series number, path
   std::vector<SkippedFile> skipped;  ///< by path
-  /// Velocity fields: three series of phase contrast along three directions, joined. load() makes a vector field
-  /// (Volume::vectors) in m/s of one. The three series are in `series`, too.
+  /// Velocity fields. Each joins three series of phase contrast along three directions, which are in `series`, too.
+  /// load() makes it a vector field (Volume::vectors) in m/s.
   std::vector<Series> velocity_fields;
 };
 
 /// The series in these files and folders. Folders are searched to the bottom; names and extensions do not matter. A
-/// DICOMDIR among the paths means its folder; its contents are not trusted. A damaged file is left out alone. Throws
+/// DICOMDIR among the paths stands for its folder; its own records are not used. A damaged file is left out; the others
+/// are read. Throws
 /// DicomError if a path does not exist or cannot be listed, or DICOM's data dictionary is missing; Cancelled.
 Catalogue find_series(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Studies that were packed: zip, tar, tar.gz (and .bz2, .xz), and single gzipped files.
+/// Packed studies: zip, tar, tar.gz (and .bz2, .xz), and single gzipped files.
 
 #include <filesystem>
 #include <memory>
@@ -10,13 +10,14 @@
 
 namespace palpate::io::internal {
 
-/// The files of an archive, in a folder of their own under the system's temporary one that only the user may read. It
+/// The files of an archive, in a new folder below the system's temporary folder. Only the user can read that folder. It
 /// is removed with its owner.
 class Unpacked {
  public:
   struct File {
-    std::filesystem::path shown;      ///< its path in the archive
-    std::filesystem::path stored_at;  ///< named by its number: a name in an archive is never a path on the disk
+    std::filesystem::path shown;  ///< its path in the archive
+    std::filesystem::path
+        stored_at;  ///< named by a number, since a name in an archive must not become a path on the disk
   };
 
   Unpacked();
@@ -34,9 +35,9 @@ class Unpacked {
 /// Whether the first bytes of a file are those of an archive or of a gzipped file.
 bool is_archive(const std::filesystem::path& file);
 
-/// Unpacks regular files alone; archives in archives stay as they are. Throws DicomError, with a reason that does not
-/// name the file, where it is damaged or locked by a password, or where more would come out than 256 MiB and 50 times
-/// the archive, 64 GiB, half of the disk's room, or a million files; Cancelled.
+/// Unpacks regular files only. Archives inside the archive stay packed. Throws DicomError, with a reason that does not
+/// name the file, if the archive is damaged or has a password, or if its contents are too large: more than 256 MiB and
+/// 50 times the archive, more than 64 GiB, half of the free space, or a million files. Throws Cancelled.
 std::shared_ptr<const Unpacked> unpack(const std::filesystem::path& archive, const Progress& progress);
 
 }  // namespace palpate::io::internal

@@ -38,13 +38,13 @@ struct Volume {
   std::string modality;                ///< DICOM Modality: "CT", "MR", ...
   std::string body_part,
       description;  ///< BodyPartExamined, SeriesDescription: what they scan decides the starting scene
-  /// Who was scanned, to be compared with what structures say; never written or shown.
+  /// The patient, to be compared with the structures' patient. Never written or shown.
   std::string patient_id, patient_name;
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).
   std::optional<std::pair<double, double>> padding;
   /// What load() had to leave out, in words for the user.
   std::vector<Text> warnings;
-  /// Where the volume is a vector field; its values are then the vectors' lengths. Null for all others.
+  /// The vectors of a vector field, whose values are then the vectors' lengths. Null for all other volumes.
   std::shared_ptr<const VectorComponents> vectors;
   /// The filter that made the values (fields/filtered.h). Null for a scan as it was stored.
   std::shared_ptr<const FilteredFrom> filtered_from;
@@ -55,12 +55,12 @@ struct Volume {
                static_cast<std::size_t>(geometry.dimensions.x) +
            static_cast<std::size_t>(i);
   }
-  /// The rescaled value of a voxel; the index has to be inside.
+  /// The rescaled value of a voxel. The index must be inside the volume.
   double value_at(int i, int j, int k) const noexcept;
   bool is_padding(int i, int j, int k) const noexcept;
 };
 
-/// A filter, and the volume that it read.
+/// A filter and its input.
 struct FilteredFrom {
   Filter filter;
   std::shared_ptr<const Volume> raw;
@@ -74,7 +74,7 @@ struct VectorComponents {
   glm::dmat3 to_patient{1};
 };
 
-/// Of rescaled values, over all voxels; with padding if the voxels are kept as stored (16 bit).
+/// Statistics of the rescaled values of all voxels. They include padding if the voxels are kept as stored (16 bit).
 struct Statistics {
   double minimum = 0;
   double maximum = 0;
@@ -82,12 +82,12 @@ struct Statistics {
   std::uint64_t count = 0;  ///< voxels
 };
 
-/// Exact sums for 16-bit voxels. All zero for a volume without values. On all cores, with the same result on any
-/// number.
+/// The sums are exact for 16-bit voxels. All are zero for a volume without values. Runs on all cores; the result does
+/// not depend on their number.
 Statistics statistics(const Volume& volume);
-/// The same without padding.
+/// The same, without padding.
 Statistics statistics_without_padding(const Volume& volume);
-/// Of two sets of voxels together.
+/// The statistics of both sets of voxels together.
 Statistics merge(const Statistics& a, const Statistics& b) noexcept;
 
 }  // namespace palpate::io

@@ -4,14 +4,15 @@
 
 namespace palpate::io::internal {
 
-/// Whether the reader asks for this attribute (group << 16 | element) of a dataset: no others are parsed. What lies in
-/// a sequence goes with it. Asking for another one throws std::logic_error (dicom_value.h): add it here.
+/// Whether the reader of images uses this attribute (group << 16 | element) of a dataset. No other attributes are
+/// parsed; a sequence is parsed with all that it holds. Reading another attribute throws std::logic_error
+/// (dicom_value.h): add it here.
 bool is_asked_for(std::uint32_t tag);
 
-/// Whether the reader of structures (io/structures) asks for it: of segmentations and contours more than of images.
+/// The same for the reader of structures (io/structures), which uses more attributes.
 bool is_asked_for_of_structures(std::uint32_t tag);
 
-/// Whether the reader of registrations asks for it: few, for all files beside a structure are read so.
+/// The same for the reader of registrations: few attributes, since it reads all files beside a structure.
 bool is_asked_for_of_registrations(std::uint32_t tag);
 
 }  // namespace palpate::io::internal

@@ -25,22 +25,22 @@ struct DatasetStart {
 };
 
 /// Reads preamble and file meta information (PS3.10 7.1); files without them are recognised by their first element.
-/// Throws DicomError ("not a DICOM file", "empty file") for everything else, so that no text or picture reaches a
-/// parser that would take it for thousands of attributes.
+/// Throws DicomError ("not a DICOM file", "empty file") for all other files, so that a text or a picture is not parsed
+/// as thousands of attributes.
 DatasetStart find_dataset(const InputFile& file);
 
-/// A deflated dataset, inflated as it is read.
+/// A deflated dataset, which is inflated while it is read.
 std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start);
 
-/// Reads what is wanted of all before the pixel data into `dataset`, having checked that this is safe. Returns
-/// where the pixel data is (in the inflated dataset, where it is deflated); nothing where there is none. Throws
+/// Reads the wanted attributes before the pixel data into `dataset`, after checks that this is safe. Returns where the
+/// pixel data begins (in the inflated dataset, if it is deflated), or nothing if there is no pixel data. Throws
 /// DicomError.
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
                                          const DatasetStart& start, DcmDataset& dataset,
                                          bool (*wants)(std::uint32_t tag) = is_asked_for);
 
-/// The sequence that these bytes are, where they were written without their VR (implicit VR, little endian; PS3.5
-/// 6.2.2): the value alone, without tag and length. Null where they are none.
+/// Reads these bytes, the value of an attribute without tag and length, as a sequence in implicit VR, little endian
+/// (PS3.5 6.2.2). Null if they are not a sequence.
 std::unique_ptr<DcmSequenceOfItems> sequence_in(std::span<const std::byte> value);
 
 }  // namespace palpate::io::internal

@@ -4,8 +4,8 @@ class DcmDataDictionary;
 
 namespace palpate::io::internal {
 
-/// To be called before any other use of DCMTK, from any thread: registers its decoders, silences its log (which names
-/// files and attributes), checks its data dictionary. Throws DicomError where that is missing.
+/// Must be called before any other use of DCMTK, from any thread. Registers its decoders, silences its log (which names
+/// files and attributes) and checks its data dictionary. Throws DicomError if the dictionary is missing.
 void start_dcmtk();
 
 /// Throws DicomError for a dictionary without entries: implicit-VR attributes would silently lose their types.

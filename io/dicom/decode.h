@@ -18,29 +18,30 @@ namespace palpate::io::internal {
 /// Whether images in this encapsulated transfer syntax can be decoded.
 bool can_decode(const std::string& transfer_syntax);
 
-/// Whether a frame in this syntax is native bytes, packed: pixels of any number of bits. Others hold up to 16.
+/// Whether a frame in this syntax is packed native bytes, with any number of bits a pixel. Other syntaxes have up
+/// to 16.
 bool is_packed(const std::string& transfer_syntax);
 
-/// Throws DicomError where `bytes` of this syntax cannot hold that many frames of that format: no coder packs pixels
-/// more densely than the bound used here, so a header that claims 60000 rows in a small file costs no memory.
+/// Throws DicomError if `bytes` bytes of this syntax are too few for so many frames of that format. No coder packs
+/// pixels more densely than the bound that is used here, so a small file that claims 60000 rows costs no memory.
 void check_density(const std::string& transfer_syntax, const PixelFormat& format, std::size_t frames,
                    std::uint64_t bytes);
 
-/// Why pixels of a syntax that can_decode() does not know are refused: by the name of the compression.
+/// Why pixels are refused if can_decode() does not know their syntax. Names the compression.
 Text why_not_decoded(const std::string& transfer_syntax);
 
-/// Throws DicomError where what was deflated would come out so large that it is a trap, or damaged: more than 256 MiB
-/// and 50 times the file, or more than 8 GiB. `bytes_out` is what is claimed, `bytes_in` the file.
+/// Throws DicomError if deflated data would become so large that the file is an attack or damaged: more than 256 MiB
+/// and 50 times the file, or more than 8 GiB. `bytes_out`: the claimed size. `bytes_in`: the file's size.
 void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in);
 
-/// Decodes one frame: `values` holds rows * columns. Returns what of the stream is against its standard without costing
-/// a pixel, in words for the user; empty where nothing is. Throws DicomError with a reason where the stream is damaged
-/// or is an image of another size than the header says.
+/// Decodes one frame: `values` holds rows * columns. Returns, in words for the user, how the stream departs
+/// from its standard where that costs no pixel; empty if it does not. Throws DicomError with a reason if the stream is
+/// damaged or has another size than the header says.
 Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
                   std::span<std::uint16_t> values);
 
 /// The native bytes of a frame, little endian, of a syntax that is_packed(): RLE (PS3.5 annex G), or deflated (A.4.13).
-/// Throws DicomError where the stream is damaged or has another size than the header says.
+/// Throws DicomError if the stream is damaged or has another size than the header says.
 std::vector<std::byte> unpack_frame(const std::string& transfer_syntax, const PixelFormat& format,
                                     std::span<const std::byte> bytes);
 
@@ -58,7 +59,7 @@ void put_little_endian(const PixelFormat& format, std::span<const std::byte> byt
 std::vector<std::byte> unpack_rle(const PixelFormat& format, std::span<const std::byte> bytes);
 std::vector<std::byte> inflate_frame(const PixelFormat& format, std::span<const std::byte> bytes);
 
-/// What a JPEG stream says of itself in its SOF marker (ISO 10918-1 annex B).
+/// The contents of a JPEG stream's SOF marker (ISO 10918-1 annex B).
 struct JpegFrame {
   int columns = 0;
   int rows = 0;
@@ -66,7 +67,7 @@ struct JpegFrame {
 };
 std::optional<JpegFrame> jpeg_frame(std::span<const std::byte> bytes);
 
-/// Throws DicomError where a Huffman table of a JPEG stream codes differences of more than `most_bits` (ISO 10918-1
+/// Throws DicomError if a Huffman table of a JPEG stream codes differences of more than `most_bits` (ISO 10918-1
 /// H.1.2.2 knows 16): DCMTK 3.6.7's decoders index tables of 16 or 17 numbers by them, unchecked.
 void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bits);
 

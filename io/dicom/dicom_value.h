@@ -12,16 +12,17 @@ class DcmTagKey;
 
 namespace palpate::io::internal {
 
-/// All of a text attribute (components separated by backslashes), without trailing padding; empty where absent.
+/// The whole value of a text attribute (components separated by backslashes), without trailing padding. Empty if
+/// absent.
 std::string text_of(DcmItem& item, const DcmTagKey& tag);
 
-/// The values of a numeric attribute (DS, IS or binary). Empty where absent or where one of them is no finite number.
+/// The values of a numeric attribute (DS, IS or binary). Empty if absent, or if one of them is not a finite number.
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag);
 
-/// The first value of it.
+/// The first value of a numeric attribute.
 std::optional<double> number_of(DcmItem& item, const DcmTagKey& tag);
 
-/// The first item of a sequence; null where absent or empty.
+/// The first item of a sequence; null if absent or empty.
 DcmItem* first_item(DcmItem& item, const DcmTagKey& sequence);
 
 }  // namespace palpate::io::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What one file's header says, as far as grouping, placing and decoding its images needs it.
+/// The part of a file's header that is needed to group, place and decode its images.
 
 #include <algorithm>
 #include <array>
@@ -29,11 +29,11 @@ struct Placement {
   double spacing_j = 1;       ///< mm between rows
 };
 
-/// From the attributes' values (3, 6 and 2 of them, in DICOM's order); nothing where they are no placement.
+/// From the attributes' values (3, 6 and 2 of them, in DICOM's order); nothing if they are not a valid placement.
 std::optional<Placement> make_placement(const std::vector<double>& position, const std::vector<double>& orientation,
                                         const std::vector<double>& spacing);
 
-/// What may tell apart images at one position, the most telling first.
+/// What may distinguish images at one position, in order of precedence.
 enum class Label {
   image_type,
   kernel,
@@ -47,10 +47,10 @@ enum class Label {
   acquisition
 };
 constexpr std::size_t label_count = 10;
-/// One text a label, numbers as text; empty where unknown.
+/// One text for each label; numbers as text. Empty if unknown.
 using Labels = std::array<std::string, label_count>;
 
-/// What a phase-contrast image says: the speed along a direction is slope * stored + intercept, m/s.
+/// A phase-contrast image: the speed along a direction is slope * stored + intercept, m/s.
 struct VelocityEncoding {
   Vec3 direction{0};  ///< unit, patient axes
   double slope = 0;
@@ -88,8 +88,8 @@ struct PixelFormat {
 
 enum class PixelCoding { native, deflated, encapsulated };
 
-/// A modality look-up table (PS3.3 C.11.1): what a stored value stands for. Values below its first and above its last
-/// take that one's.
+/// A modality look-up table (PS3.3 C.11.1): the value that each stored value stands for. Stored values below the first
+/// entry have the first entry's value, and those above the last one have the last one's.
 struct ModalityTable {
   double first = 0;  ///< the stored value of its first entry
   std::vector<float> values;
@@ -101,16 +101,17 @@ struct ModalityTable {
 };
 
 struct FileHeader {
-  std::filesystem::path path;       ///< as a user is told it; inside an archive: the archive's, and its path in there
+  std::filesystem::path
+      path;  ///< as it is shown to a user; for a file in an archive, the archive's path and its path inside
   std::filesystem::path stored_at;  ///< where its bytes are
-  /// What keeps these bytes there; null for files that lie there anyway.
+  /// Keeps temporary files alive; null for files that are not temporary.
   std::shared_ptr<const void> keeper;
   std::string transfer_syntax;     ///< UID
   std::string sop_class;           ///< UID
   std::string sop_instance;        ///< UID
   std::string series;              ///< UID
   std::string study;               ///< UID
-  std::string frame_of_reference;  ///< UID; empty where it is not said
+  std::string frame_of_reference;  ///< UID; empty if the file does not say
   std::string modality;
   std::string description;
   std::string image_type;  ///< all its values, separated by backslashes
@@ -118,7 +119,7 @@ struct FileHeader {
   Series::Details details;
   Series::Identity identity;
   double instance_number = 0;
-  std::string acquisition_time;  ///< date and time, only to be compared
+  std::string acquisition_time;  ///< date and time; used only for comparison
   std::string content_time;      ///< as acquisition_time
   double thickness = 0;          ///< SliceThickness, mm; 0 where unknown
 
@@ -126,8 +127,8 @@ struct FileHeader {
   int columns = 0;  ///< of one image (of a tile of a mosaic)
   int rows = 0;
   std::optional<std::pair<double, double>> padding;  ///< stored values, both ends included
-  std::shared_ptr<const ModalityTable> table;        ///< stands for the rescale; null where there is none
-  /// Whether that is no value that BitsStored can hold, but a word of BitsAllocated that stands for none.
+  std::shared_ptr<const ModalityTable> table;        ///< used instead of the rescale; null if there is none
+  /// Whether the padding value does not fit into BitsStored, so that whole words of BitsAllocated are compared.
   bool padding_is_wide() const;
 
   PixelCoding coding = PixelCoding::native;
@@ -135,19 +136,19 @@ struct FileHeader {
   bool swapped_words = false;                    ///< 8-bit pixels in big-endian 16-bit words
   bool swapped_wholes = false;                   ///< big-endian 32-bit integers, not swapped word by word
   DatasetStart start;                            ///< where the dataset is
-  std::uint64_t pixels_at = 0;                   ///< where the pixels are: in the file; of the inflated dataset
+  std::uint64_t pixels_at = 0;                   ///< first byte of the pixels, in the file or in the inflated dataset
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
 
   std::vector<Plane> planes;
-  std::vector<Text> remarks;  ///< what a user should know of its series, in words that all of its files share
-  Text unfit;                 ///< why its images cannot be part of a volume (color, no position); empty where they can
-  Text defect;                ///< why its pixels cannot be read (truncated); empty where they can
+  std::vector<Text> remarks;  ///< what a user should know about the series; the same words for all of its files
+  Text unfit;                 ///< why its images cannot be part of a volume (color, no position); empty if they can
+  Text defect;                ///< why its pixels cannot be read (truncated); empty if they can
 };
 
 /// The file's name without its folder, for messages.
 std::string name_of(const FileHeader& file);
 
-/// Reads a file up to its pixel data. Throws DicomError with a reason (that does not name the file) where it holds no
+/// Reads a file up to its pixel data. Throws DicomError with a reason (that does not name the file) if it holds no
 /// image.
 FileHeader read_file_header(const std::filesystem::path& stored_at);
 

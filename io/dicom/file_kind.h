@@ -15,7 +15,7 @@ class NotAnImage : public DicomError {
   std::string sop_class;  ///< UID; may be empty
 };
 
-/// "structured report", "scout", "segmentation", ... `sop_class` (UID) and `image_type` are empty where the file is not
+/// "structured report", "scout", "segmentation", ... `sop_class` (UID) and `image_type` are empty if the file is not
 /// DICOM; `reason` is why it was set apart.
 std::string kind_of_file(const std::string& sop_class, const std::string& image_type, const std::string& reason);
 

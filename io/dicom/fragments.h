@@ -16,12 +16,13 @@ struct Fragment {
 
 struct Encapsulated {
   std::vector<std::vector<Fragment>> frames;  ///< the fragments of each
-  bool has_end = true;                        ///< whether the item that ends them is there; the fragments are, anyway
+  bool has_end = true;  ///< whether the item that ends them is there; the fragments are complete without it
 };
 
 /// The fragments of each frame. `pixels_at` is where the value of PixelData starts, at the basic offset table. Frames
-/// are told apart by one fragment each; else by the offset table; else by the fragments that start a new JPEG, JPEG-LS
-/// or JPEG 2000 stream. Throws DicomError where the file is truncated or the fragments do not make up that many frames.
+/// are one fragment each if the numbers agree; else the offset table divides them; else a frame begins with each
+/// fragment that begins a JPEG, JPEG-LS or JPEG 2000 stream. Throws DicomError if the file is truncated or the
+/// fragments do not give that many frames.
 Encapsulated find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames);
 
 /// The bytes of a frame, its fragments joined.

@@ -12,7 +12,7 @@ namespace palpate::io::internal {
 struct FrameSplit {
   std::vector<std::vector<SeriesSource::Slice>> frames;  ///< slices of each, ascending along the normal
   std::vector<std::string> names;                        ///< how each frame differs from the others
-  /// Of each frame, the places (mm) where it has no slice although half of the frames or more have one.
+  /// For each frame, the places (mm) at which it has no slice although at least half of the frames have one.
   std::vector<std::vector<Vec3>> lacking;
   bool ranked = false;  ///< whether frames have the same labels, so that only their order tells them apart
   std::vector<SeriesSource::Slice> left_over;  ///< images that repeat at a position but belong to no frame
@@ -24,7 +24,7 @@ std::string label_text(Label label, const std::string& value);
 /// Sorts images of one orientation and size into frames. Two images are at one position if they are closer along the
 /// normal than 2 % of a pixel. Labels (b-value, echo, ...) tell frames apart if they have the same few values all over
 /// the stack. A label is used only if it tells more images apart than the labels before it. Images with the same labels
-/// are told apart by the order of acquisition. A group with half as many slices as the largest frame, or fewer, is left
+/// are told apart by the order of acquisition. A group with at most half as many slices as the largest frame is left
 /// over.
 FrameSplit split_into_frames(const SeriesSource& source, std::vector<SeriesSource::Slice> slices);
 

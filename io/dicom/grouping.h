@@ -1,6 +1,6 @@
 #pragma once
 
-/// From headers to series.
+/// Groups the headers of files into series.
 
 #include <string>
 #include <vector>

@@ -10,14 +10,14 @@ namespace palpate::io::internal {
 /// A file open for reading at any place, closed with its owner. Safe to read from several threads.
 class InputFile {
  public:
-  /// Throws DicomError where it cannot be opened.
+  /// Throws DicomError if the file cannot be opened.
   explicit InputFile(const std::filesystem::path& path);
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
 
   std::uint64_t size() const { return size_; }
-  /// Fills all of `into`; throws DicomError where the file ends before that.
+  /// Fills all of `into`. Throws DicomError if the file ends before.
   void read(std::uint64_t at, std::span<std::byte> into) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the reader says of files and series.
+/// The reader's messages about files and series.
 
 #include "solver/text/message.h"
 

@@ -13,16 +13,16 @@ namespace palpate::io::internal {
 /// Reads frames out of one file. Keeps the file open; one thread at a time.
 class PixelReader {
  public:
-  /// `header` has to live as long as the reader. Throws DicomError where the file cannot be opened.
+  /// `header` must outlive the reader. Throws DicomError if the file cannot be opened.
   explicit PixelReader(const FileHeader& header);
 
-  /// The stored values of a frame as the file holds it (all of a mosaic), rows * columns of them, sign extended; bits
-  /// outside BitsStored, such as overlays, are removed, but for padding that needs them. Signed ones are to be read as
-  /// int16. Returns decode_frame()'s word on it. Throws DicomError with a reason that does not name the file.
+  /// The stored values of a whole frame of the file (all tiles of a mosaic): rows * columns of them, sign extended.
+  /// Bits outside BitsStored, such as overlays, are removed, except where padding needs them. Signed values must be
+  /// read as int16. Returns the words of decode_frame(). Throws DicomError with a reason that does not name the file.
   Text read(std::uint32_t frame, std::span<std::uint16_t> values);
 
-  /// The same of a frame whose values are wide (PixelFormat::is_wide), which is compressed by RLE or deflated at most:
-  /// the numbers that are stored. Throws DicomError as read().
+  /// The same for a frame with wide values (PixelFormat::is_wide), which is uncompressed, RLE or deflated: the stored
+  /// numbers. Throws DicomError as read().
   void read_wide(std::uint32_t frame, std::span<double> values);
 
  private:
