@@ -1,6 +1,6 @@
 #pragma once
 
-/// An association with an archive, as the one who asks for it. What the files of this folder share; not installed.
+/// An association with an archive, on the requestor's side. Shared by the files of this folder; not installed.
 
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
@@ -24,7 +24,7 @@ struct Proposal {
   bool we_receive = false;  ///< the archive sends these to us on the same association (C-GET)
 };
 
-/// A command that came, with the presentation context it came in.
+/// A command that was received, and its presentation context.
 struct Command {
   T_DIMSE_Message message{};
   T_ASC_PresentationContextID context = 0;
@@ -32,31 +32,31 @@ struct Command {
 
 class Association {
  public:
-  /// Throws ArchiveError saying why there is none and what to set where.
+  /// If there is none, throws ArchiveError that says why, and which setting to change.
   Association(const Archive& archive, const std::vector<Proposal>& proposals);
   Association(const Association&) = delete;
   Association& operator=(const Association&) = delete;
-  /// Released in good order, or aborted where something went wrong on it.
+  /// Releases the association, or aborts it after an error.
   ~Association();
 
   T_ASC_Association* get() const noexcept { return association_; }
   const Archive& archive() const noexcept { return archive_; }
   std::uint16_t next_message_id() noexcept { return association_->nextMsgID++; }
 
-  /// The context that was agreed on for a kind of object. Throws ArchiveError where there is none.
+  /// The context that was accepted for a kind of object. Throws ArchiveError if none was.
   T_ASC_PresentationContextID context_for(const std::string& sop_class) const;
   bool accepts(const std::string& sop_class) const;
 
-  /// Sends a command, with a dataset where one is given. Throws ArchiveError.
+  /// Sends a command, and its dataset if there is one. Throws ArchiveError.
   void send(Command& command, DcmDataset* dataset = nullptr);
-  /// The next command. Throws Cancelled where keep_going says so (asked at least once a second), ArchiveError where
-  /// the archive goes away or is silent for too long.
+  /// The next command. Throws Cancelled if keep_going returns false (called at least once a second), and ArchiveError
+  /// if the archive closes the connection or is silent for too long.
   Command receive(const KeepGoing& keep_going);
   /// The dataset that follows a command, at most `most_bytes` of it. Throws ArchiveError.
   std::unique_ptr<DcmDataset> receive_dataset(T_ASC_PresentationContextID context, std::size_t most_bytes);
-  /// From here on it can only be aborted.
+  /// From now on the association can only be aborted.
   void give_up() noexcept { broken_ = true; }
-  /// Tells the watch that something is heard, where others read from it.
+  /// Tells the watch that data has come, for code that reads from the association directly.
   Watch& watch() noexcept { return *watch_; }
 
  private:
@@ -70,8 +70,8 @@ class Association {
   bool broken_ = false;
 };
 
-/// Asks a question of the study-root model `model` (a SOP class): sends the keys in its context. `field` is the kind of
-/// command, and `request` the part of `command` for it, where the rest has been filled in. Throws ArchiveError.
+/// Sends a query of the study-root model `model` (a SOP class) with its keys. `field`: the kind of command. `request`:
+/// the part of `command` for that kind, whose other fields have been filled in. Throws ArchiveError.
 template <typename Request>
 void send_request(Association& association, const char* model, T_DIMSE_Command field, Command& command,
                   Request& request, DcmDataset& keys) {
@@ -86,11 +86,11 @@ void send_request(Association& association, const char* model, T_DIMSE_Command f
 
 /// Uncompressed encodings, the best first.
 const std::vector<std::string>& uncompressed_syntaxes();
-/// Compressed encodings that can be read.
+/// Compressed encodings that we can decode.
 const std::vector<std::string>& compressed_syntaxes();
 
-/// Bytes of the dataset that follows a command, as they come; false from the sink ends it, and then the association
-/// can only be aborted.
+/// Passes on the bytes of the dataset that follows a command as they arrive. If the sink returns false, reading ends,
+/// and the association can only be aborted.
 OFCondition stream_dataset(T_ASC_Association& association, int silence_s, Watch& watch,
                            const std::function<bool(const void*, std::size_t)>& sink);
 

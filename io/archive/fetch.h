@@ -1,7 +1,7 @@
 #pragma once
 
-/// Fetching studies and series from an archive into a folder: by C-MOVE to a storage service of our own, which listens
-/// only meanwhile, or by C-GET.
+/// Fetches studies and series from an archive into a folder: by C-GET, or by C-MOVE to a storage service of our own,
+/// which listens only during the fetch.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,10 +22,10 @@ struct FetchLimits {
 struct FetchProgress {
   std::size_t files = 0;
   std::uint64_t bytes = 0;
-  int expected = -1;  ///< images, as the archive counts them; -1: it does not say
+  int expected = -1;  ///< number of images by the archive's count; -1: unknown
 };
 
-/// Called with what has come, at least once a second, on the thread that called fetch(). False cancels.
+/// Called with the progress so far, at least once a second, on the thread that called fetch(). Returning false cancels.
 using FetchWatcher = std::function<bool(const FetchProgress&)>;
 
 struct FetchedSeries {
@@ -39,12 +39,12 @@ struct Fetched {
   std::size_t files = 0;
   std::uint64_t bytes = 0;
   bool complete = true;        ///< false: the archive could not send all of it
-  std::vector<Text> warnings;  ///< what did not come, and why; in the user's words
+  std::vector<Text> warnings;  ///< what was not sent, and why
 };
 
-/// Fetches what the UIDs name (studies or series) into `folder`, which is made where it is not there, readable by its
-/// owner alone; each series gets a folder of its own there, with names that we give. Nothing is left of a fetch that
-/// throws: Cancelled where the watcher said so, ArchiveError for all else.
+/// Fetches studies or series, by their UIDs, into `folder`. The folder is made if it does not exist, and only its owner
+/// can read it. Each series gets a subfolder; we choose all names. Throws Cancelled if the watcher returned false, and
+/// ArchiveError otherwise; then no files are left.
 Fetched fetch(const Archive& archive, const std::vector<std::string>& uids, const std::filesystem::path& folder,
               const FetchLimits& limits = {}, const FetchWatcher& watcher = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Asking an archive what it holds: studies by patient, id, date, modality and description, and their series.
+/// Searches an archive for studies by patient, id, date, modality and description, and for their series.
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace palpate::io {
 
-/// Empty: anything. Texts are UTF-8; * and ? are the archive's wildcards.
+/// What to search for. An empty text matches everything. Texts are UTF-8; * and ? are the archive's wildcards.
 struct ArchiveQuery {
-  std::string patient;      ///< part of the name
-  std::string patient_id;   ///< the whole of it
-  std::string date;         ///< YYYYMMDD, YYYYMMDD-YYYYMMDD, or with one side left out
+  std::string patient;      ///< part of the patient's name
+  std::string patient_id;   ///< the whole id
+  std::string date;         ///< YYYYMMDD, YYYYMMDD-YYYYMMDD, -YYYYMMDD or YYYYMMDD-
   std::string modality;     ///< CT, MR, ...
   std::string description;  ///< part of the study's description
   std::size_t most_studies = 100;
@@ -33,13 +33,13 @@ struct ArchivedStudy {
 
 struct Found {
   std::vector<ArchivedStudy> studies;  ///< the latest first
-  bool more = false;                   ///< the archive holds more than were asked for
+  bool more = false;                   ///< the archive holds more than the limit
 };
 
-/// C-FIND, study root. Throws ArchiveError, and Cancelled where keep_going says so.
+/// C-FIND, study root. Throws ArchiveError, and Cancelled if keep_going returns false.
 Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& keep_going = {});
 
-/// The series of a study that was found without them, by number. Throws as find().
+/// The series of a study that was found without them, ordered by number. Throws as find() does.
 std::vector<ArchivedSeries> find_series_of(const Archive& archive, const std::string& study_uid,
                                            const KeepGoing& keep_going = {});
 
@@ -47,10 +47,10 @@ std::vector<ArchivedSeries> find_series_of(const Archive& archive, const std::st
 struct Wanted {
   std::string study_uid;
   std::string series_uid;  ///< empty: the whole study
-  int images = -1;         ///< as the archive counts them; -1: it does not say
+  int images = -1;         ///< number of images by the archive's count; -1: unknown
 };
 
-/// The study or the series of a UID. Throws ArchiveError where the archive holds neither.
+/// The study or the series of a UID. Throws ArchiveError if the archive holds neither.
 Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing& keep_going = {});
 
 }  // namespace palpate::io

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What arrives during a fetch, on its way into the folder: shared by C-GET and our storage service. Not installed.
+/// Receives the objects of a fetch and moves them into the folder. Shared by C-GET and our storage service; not
+/// installed.
 
 #include <atomic>
 #include <map>
@@ -17,30 +18,31 @@ namespace palpate::io {
 
 class Inbox {
  public:
-  /// Makes the folder and a hidden one in it, where files lie until all have come. Throws ArchiveError naming it.
+  /// Makes the folder, and in it a hidden one for the files until all have been received. Throws ArchiveError that
+  /// names the folder.
   Inbox(const std::filesystem::path& folder, const FetchLimits& limits);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
-  /// Removes what finish() has not put in its place, and the folder where it was made here and is empty.
+  /// Removes the files that finish() has not moved, and the folder if it was made here and is empty.
   ~Inbox();
 
-  /// What is accepted from now on.
+  /// Which objects are accepted from now on.
   void expect(const Wanted& wanted);
 
-  /// Takes the dataset that follows a C-STORE request, and returns the status to answer with. Throws ArchiveError where
-  /// the disk is full or a limit is passed, Cancelled where keep_going says so; then the association has to be aborted,
-  /// for its dataset was not read to its end. A connection that breaks is told by `broken`.
+  /// Reads the dataset that follows a C-STORE request, and returns the status to answer with. Throws ArchiveError if
+  /// the disk is full or a limit is exceeded, and Cancelled if keep_going returns false; then the association must be
+  /// aborted, since its dataset was not read to its end. `broken` is set if the connection breaks.
   std::uint16_t store(T_ASC_Association& association, Watch& watch, int silence_s, const Command& command,
                       const KeepGoing& keep_going, OFCondition& broken);
 
   std::size_t files() const noexcept { return files_.load(std::memory_order_relaxed); }
   std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
-  /// Of all datasets, also of the one that is on its way and of those that are not kept.
+  /// Bytes of all datasets, including the one that is being received and those that are not kept.
   std::uint64_t received_bytes() const noexcept { return received_bytes_.load(std::memory_order_relaxed); }
-  /// Objects of another study or series, which were not kept.
+  /// The number of objects of other studies or series, which were not kept.
   std::size_t unasked() const noexcept { return unasked_.load(std::memory_order_relaxed); }
 
-  /// Puts all that came in its place.
+  /// Moves all files that were received to their places.
   std::vector<FetchedSeries> finish();
 
  private:

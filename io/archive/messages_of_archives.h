@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of archives, of what they hold and of the way to them.
+/// Messages about archives, their contents and the connection to them.
 
 #include "solver/text/message.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Our storage service (SCP), to which an archive sends what a C-MOVE asked for. It listens only while it lives, on one
-/// address, and takes objects from the archive's AE title alone. Not installed.
+/// Our storage service (SCP), to which an archive sends the objects that a C-MOVE requested. It listens for as long as
+/// the object lives, on one address, and accepts objects from the archive's AE title only. Not installed.
 
 #include <atomic>
 #include <exception>
@@ -16,16 +16,16 @@ namespace palpate::io {
 
 class StoreServer {
  public:
-  /// Listens. Throws ArchiveError where the address or the port cannot be had.
+  /// Listens. Throws ArchiveError if it cannot listen on the address and port.
   StoreServer(const Archive& archive, Inbox& inbox);
   StoreServer(const StoreServer&) = delete;
   StoreServer& operator=(const StoreServer&) = delete;
-  /// Closed, and no association is left.
+  /// Stops listening and ends all associations.
   ~StoreServer();
 
-  /// Throws what ended it: a full disk, a limit.
+  /// Throws the error that ended it, such as a full disk or a limit.
   void rethrow();
-  /// AE titles that wanted in and were not let in, in words; empty: none.
+  /// The AE titles that were rejected, in words; empty if none was.
   std::string turned_away();
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The connection under an association: plain TCP or TLS, and the watch that ends it where the peer is silent.
+/// The connection of an association: plain TCP or TLS, and the watch that ends it if the peer is silent.
 
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
@@ -18,22 +18,22 @@
 
 namespace palpate::io {
 
-constexpr long maximum_pdu = 65536;  ///< bytes of a message that we take in one part
+constexpr long maximum_pdu = 65536;  ///< bytes of a message that we accept in one part
 
 /// DCMTK's layer for one connection, which also remembers the connection's socket.
 struct Transport {
   std::unique_ptr<DcmTransportLayer> layer;
-  int socket = -1;           ///< of the connection that was made last; DCMTK's to close
+  int socket = -1;           ///< of the latest connection; DCMTK closes it
   bool names_other = false;  ///< the peer's certificate is for another machine than the archive's
 };
 
-/// For the side that asks (NET_REQUESTOR) or is asked (NET_ACCEPTOR). If we ask, the peer's certificate has to be for
-/// its machine (RFC 6125); if a peer asks us, only its certificate's authority is checked, and its AE title later.
-/// Throws ArchiveError naming the certificate or key that cannot be used.
+/// For the requestor's side (NET_REQUESTOR) or the acceptor's (NET_ACCEPTOR). As a requestor, we require that the
+/// peer's certificate is for its machine (RFC 6125). As an acceptor, we check only the certificate's authority, and the
+/// AE title later. Throws ArchiveError that names the certificate or key that cannot be used.
 std::unique_ptr<Transport> make_transport(const Archive& archive, T_ASC_NetworkRole role);
 
-/// Shuts a socket down where nothing was heard on it for a while. Without it a peer that sends a byte now and then
-/// would hold a reader in the midst of a message for ever: DCMTK's time-outs start anew with every byte.
+/// Shuts a socket down if no whole part of a message has come for a while. Without it, a peer that sends a byte now and
+/// then could keep a reader waiting for ever, since DCMTK's time-outs start anew with every byte.
 class Watch {
  public:
   Watch(int socket, int silence_s);
@@ -41,10 +41,10 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch();
 
-  /// A whole piece of a message has come, or has gone.
+  /// A whole part of a message has been received or sent.
   void heard() noexcept { last_.store(std::chrono::steady_clock::now(), std::memory_order_relaxed); }
   bool ended() const noexcept { return ended_.load(std::memory_order_relaxed); }
-  /// Ends the connection now.
+  /// Ends the connection at once.
   void end() noexcept;
 
  private:

@@ -1,7 +1,6 @@
 #pragma once
 
-/// A lattice of values in a file that is no DICOM: NIfTI-1 and NIfTI-2, NRRD, MetaImage. It may be a scan or a map of
-/// labels.
+/// A grid of values in a file that is not DICOM: NIfTI-1 and NIfTI-2, NRRD, MetaImage. It may be a scan or a label map.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +20,7 @@ namespace palpate::io {
 
 struct LabelImage;
 
-/// What a label is called, where the file says it. Those of a file with layers are numbered by label_number().
+/// The name of a label, if the file gives one. Labels of a file with layers are numbered by label_number().
 struct LabelName {
   std::string name;
   std::string color;  ///< "#rrggbb", or empty
@@ -31,42 +30,42 @@ struct VoxelFile {
   enum class Number : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
   enum class Packing : std::uint8_t {
     none,
-    whole,      ///< gzipped, its header as well
-    behind_it,  ///< its header is not, what follows it is (gzip or zlib)
-    bzip2,      ///< the same by bzip2
-    ascii,      ///< numbers in words
+    whole,      ///< the whole file is gzipped
+    behind_it,  ///< all after the header is packed (gzip or zlib)
+    bzip2,      ///< all after the header is packed by bzip2
+    ascii,      ///< numbers as text
     hex         ///< bytes as two digits each
   };
-  /// What the numbers of a voxel are that lie side by side.
+  /// The meaning of several numbers of one voxel.
   enum class Beside : std::uint8_t { labels, volumes, colors };
 
   std::filesystem::path path;       ///< where its bytes are
-  std::filesystem::path voxels_at;  ///< where those of its voxels are: the same file, or one beside it
+  std::filesystem::path voxels_at;  ///< the file with its voxels: the same, or one beside it
   Geometry geometry;
   Number number = Number::u8;
-  bool swapped = false;             ///< its bytes are in the other order than this machine's
+  bool swapped = false;             ///< its byte order is not this machine's
   double slope = 1, offset = 0;     ///< value = slope * stored + offset
   Packing packing = Packing::none;  ///< of the file at voxels_at
-  std::int64_t first = 0;  ///< the byte at which the voxels begin; of the unpacked file where it is packed whole
-  int volumes = 1;         ///< frames: volumes of the same size, one behind the other
+  std::int64_t first = 0;  ///< the first byte of the voxels; counted in the unpacked file if the whole file is packed
+  int volumes = 1;         ///< frames: volumes of the same size, one after the other
   int layers = 1;          ///< numbers of a voxel, side by side
-  Beside beside = Beside::labels;        ///< label maps on one lattice; frames; or red, green, blue and perhaps alpha
+  Beside beside = Beside::labels;        ///< label maps on one grid; frames; or red, green, blue and perhaps alpha
   glm::ivec3 size{0};                    ///< voxels along the file's axes, the fastest one first
   std::array<int, 3> axes{0, 1, 2};      ///< the file's axes that are the geometry's i, j and k
   bool reversed = false;                 ///< the file's first slice (along axes[2]) is the geometry's last
-  std::optional<Series::Window> window;  ///< how it would be shown
+  std::optional<Series::Window> window;  ///< the window that the file asks for
   bool said_to_be_labels = false;
   std::map<int, LabelName> names;
-  std::vector<Text> remarks;  ///< what a user should know of it
+  std::vector<Text> remarks;  ///< what a user should know about it
 
   int frames() const noexcept { return beside == Beside::volumes ? layers : volumes; }
 
   std::size_t slice_size() const { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y); }
-  /// Numbers of a slice: more than its voxels where there are layers.
+  /// The count of numbers in a slice: more than its voxels if there are layers.
   std::size_t numbers_of_slice() const { return slice_size() * static_cast<std::size_t>(layers); }
 };
 
-/// A number that no label of another layer has. In the first layer it is the label's value.
+/// A number that is unique among the labels of all layers. In the first layer it is the label's value.
 constexpr int label_number(int layer, int value) noexcept {
   return layer * 65536 + value;
 }
@@ -74,17 +73,18 @@ constexpr int label_number(int layer, int value) noexcept {
 /// Bytes of a number.
 std::size_t bytes_of(VoxelFile::Number number) noexcept;
 
-/// Null if its name or its first bytes are not those of such a file. `named` is its name as its user knows it, where
-/// that is not `path`. Throws DicomError, with a reason that does not name the file, if it cannot be read.
+/// Null if its name or its first bytes are not those of such a file. `named`: the name that the user knows, which may
+/// not be `path`. Throws DicomError, with a reason that does not name the file, if it cannot be read.
 std::optional<VoxelFile> open_voxel_file(const std::filesystem::path& path, const std::filesystem::path& named);
 
 /// A format of scans and label maps: one file (interchange/<name>.cpp) and one name in io/CMakeLists.txt.
 struct LabelFormat {
   std::string_view name;                      ///< for people
   std::array<std::string_view, 4> endings{};  ///< of its files' names; the rest is empty
-  /// As open_voxel_file(). Null if the file is none of this format.
+  /// As open_voxel_file(). Null if the file has another format.
   std::optional<VoxelFile> (*open)(const std::filesystem::path& path, const std::filesystem::path& named) = nullptr;
-  /// Endings that a structure is written with, the usual one first; the rest is empty. All are, if `bytes` is null.
+  /// Endings of the files that are written for structures, the usual one first; the rest is empty. All are empty if
+  /// `bytes` is null.
   std::array<std::string_view, 2> written{};
   /// The whole file with this ending, one of `written`. The slices of the image lie evenly.
   std::string (*bytes)(const LabelImage& image, std::string_view ending) = nullptr;
@@ -93,14 +93,14 @@ struct LabelFormat {
 std::span<const LabelFormat* const> label_formats();
 /// Of all formats: ".nii", ".nii.gz", ...
 std::vector<std::string> label_format_endings();
-/// Of all formats: those that a structure is written with.
+/// The endings of all formats that structures are written in.
 std::vector<std::string> written_endings();
 
 struct LabelWriter {
   const LabelFormat* format = nullptr;
   std::string_view ending;
 };
-/// Who writes a file of that name: of two endings that fit, the longer one. Null if there is no such format.
+/// The format and ending for a file of that name; of two endings that fit, the longer one. Null if no format fits.
 std::optional<LabelWriter> writer_of(const std::filesystem::path& name);
 
 /// An affine map from voxels along the file's axes to LPS, mm.
@@ -113,17 +113,17 @@ struct VoxelMap {
 /// sheared. They ascend along i x j. Throws DicomError if no two axes are at right angles, or a size is impossible.
 void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file);
 
-/// Notes that a voxel has so many numbers, its red, green and blue and perhaps its alpha. Throws DicomError where that
-/// cannot be: colors are 3 or 4 numbers of 8 bits, or of 16.
+/// Notes that a voxel has so many numbers: red, green, blue and perhaps alpha. Throws DicomError unless these are 3 or
+/// 4 numbers of 8 or 16 bits.
 void read_as_colors(double numbers, VoxelFile& file);
-/// Throws DicomError where it is none.
+/// Throws DicomError if it is not a valid count.
 int count_of_volumes(double count);
 
-/// Whether a file name has this ending, in upper or lower case.
+/// Whether a file name has this ending. Case does not matter.
 bool has_ending(const std::filesystem::path& name, const std::string& ending);
-/// The file of voxels that a header names, which has to lie beside it. Throws DicomError where it does not.
+/// The file of voxels that a header names. Throws DicomError if it does not lie beside the header.
 std::filesystem::path beside(const std::filesystem::path& header, const std::string& name);
-/// Throws DicomError where the file is too short for its voxels, or is packed and would be unpacked to too much.
+/// Throws DicomError if the file is too short for its voxels, or would be too large when unpacked.
 void check_size(const VoxelFile& file);
 
 }  // namespace palpate::io

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A volume in a file that is no DICOM, as a series.
+/// Presents a file that is not DICOM as a series.
 
 #include "io/interchange/voxel_file.h"
 #include "io/load.h"
@@ -8,13 +8,13 @@
 
 namespace palpate::io {
 
-/// One series with as many frames as the file has volumes. Its UID is made of the file's first bytes, so that it is the
-/// same wherever the file lies; its description is the file's name. `path` is as its user knows it;
-/// `keeper` is what keeps the file where it is, or null.
+/// One series with as many frames as the file has volumes. Its UID is computed from the file's first bytes, so that it
+/// does not depend on the file's place. Its description is the file's name. `path`: the path that the user knows.
+/// `keeper`: keeps a temporary file alive, or null.
 Series series_of(VoxelFile file, const std::filesystem::path& path, std::shared_ptr<const void> keeper = nullptr);
 
-/// What load() gives of it: voxels of up to 16 bits as they are stored, others as rescaled floats, in which what is no
-/// number is padding. Throws as load().
+/// As load(): voxels of up to 16 bits as stored values, others as rescaled floats, in which NaN is padding. Throws as
+/// load() does.
 Volume load_voxels(const VoxelFile& file, const std::string& name, const LoadOptions& options);
 
 }  // namespace palpate::io

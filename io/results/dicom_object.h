@@ -1,6 +1,6 @@
 #pragma once
 
-/// What all DICOM objects that are made here have in common. Not installed.
+/// Shared by all DICOM objects that we write. Not installed.
 
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.
@@ -20,13 +20,13 @@ inline constexpr const char* not_a_device = "Made by research software, which is
 
 std::string new_uid();
 
-/// A number as DICOM has it in text (DS), with as many digits as its 16 bytes can hold.
+/// A number as a DICOM decimal string (DS), with as many digits as fit into 16 bytes.
 std::string decimal(double number);
 
 /// One line of at most 64 characters (LO): without backslashes and control characters.
 std::string long_string(const std::string& utf8);
 
-/// The object as a file has it. Throws DicomError where DCMTK refuses.
+/// The object as the bytes of a file. Throws DicomError if DCMTK refuses.
 std::string bytes_of(DcmFileFormat& format, E_TransferSyntax syntax);
 
 /// Throws DicomError with DCMTK's reason.
@@ -34,17 +34,17 @@ void succeed(const OFCondition& condition);
 
 /// The image that lies on a slice.
 struct SliceImage {
-  ReferencedImage image;    ///< without an instance where there is none
-  std::uint32_t frame = 0;  ///< from 1 on, of a file with several; else 0
+  ReferencedImage image;    ///< without an instance if there is no image
+  std::uint32_t frame = 0;  ///< of a multi-frame file, from 1 on; else 0
 };
 
-/// One for each slice of the scan's frame, found by their positions. Throws DicomError where the scan is no DICOM.
+/// One for each slice of the scan's frame, found by their positions. Throws DicomError if the scan is not DICOM.
 std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geometry, int frame);
 
-/// Puts a Code Sequence with one item.
+/// Adds a code sequence with one item.
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 
-/// Puts what is common: patient and study, a new series and instance, equipment, dates and what was corrected.
+/// Adds the shared attributes: patient and study, a new series and instance, equipment, dates, and what was corrected.
 void put_common(const StudyHeader& header, const StructureLabel& label, const Series& scan, const WriteOptions& options,
                 DcmDataset& data);
 

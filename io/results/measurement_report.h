@@ -1,6 +1,6 @@
 #pragma once
 
-/// What was marked and measured on a series, as DICOM that goes into its study: a Comprehensive 3D SR by template TID
+/// Writes the marks and measurements of a series as DICOM objects of its study: a Comprehensive 3D SR by template TID
 /// 1500 (DICOM PS3.16), and pictures as Secondary Capture.
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct MarkedPoint {
   std::optional<double> force_n;  ///< N, on the stylus
 };
 
-/// A length along points: two for a distance, more for a path.
+/// The length of a line through points: two for a distance, more for a path.
 struct MeasuredLength {
   std::string name;
   std::vector<glm::dvec3> points_mm;
@@ -37,8 +37,8 @@ struct MeasurementReport {
   std::vector<MeasuredLength> lengths;
 };
 
-/// Writes the report with references to the series' images; patient and study are copied from their headers. Throws
-/// DicomError naming the file that cannot be read or written, or what the series lacks.
+/// Writes the report with references to the series' images. Patient and study are copied from their headers. Throws
+/// DicomError that names the file that cannot be read or written, or the attribute that the series lacks.
 void write_measurement_report(const Series& series, const MeasurementReport& report, const std::filesystem::path& file);
 
 /// 8-bit red, green, blue; row by row from the upper left.
@@ -48,7 +48,7 @@ struct Picture {
   std::string description;
 };
 
-/// Writes the pictures as one new series of the study, a file each: picture-001.dcm and so on. Throws as above.
+/// Writes the pictures as one new series of the study, one file for each: picture-001.dcm and so on. Throws as above.
 void write_pictures(const Series& series, const std::string& software_version, std::span<const Picture> pictures,
                     const std::filesystem::path& folder);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Who and what a series is of, as its images say it, to be copied into what is made of it. Not installed.
+/// Patient and study of a series, from its images, to be copied into new objects. Not installed.
 
 #include <string>
 #include <utility>
@@ -17,17 +17,17 @@ struct ReferencedImage {
 };
 
 struct StudyHeader {
-  /// Attributes of patient and study in UTF-8: group and element, value; empty ones where the standard wants them
-  /// there.
+  /// Attributes of patient and study: group and element, and the value in UTF-8. Attributes that the standard requires
+  /// are there even if empty.
   std::vector<std::pair<std::uint32_t, std::string>> attributes;
   std::string study_uid, series_uid, frame_of_reference_uid;
   std::vector<ReferencedImage> images;
 };
 
-/// Throws DicomError naming the file that cannot be read, or what the series lacks.
+/// Throws DicomError that names the file that cannot be read, or the attribute that the series lacks.
 StudyHeader read_study_header(const Series& series);
 
-/// Puts them into a dataset, which is then in UTF-8.
+/// Adds them to a dataset, whose character set becomes UTF-8.
 void put_study(const StudyHeader& header, DcmItem& dataset);
 
 }  // namespace palpate::io

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A locale that writes 0,75, as a host program may have set it.
+/// A locale with a decimal comma (0,75), as a host program may have set it.
 
 #include <clocale>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 namespace palpate::io::internal {
 
-/// Until it goes. Made by Debian's localedef, since few machines have one.
+/// Sets the locale until it is destroyed. Debian's localedef makes it, since few machines have one installed.
 class CommaLocale {
  public:
   CommaLocale() {
@@ -25,7 +25,7 @@ class CommaLocale {
     std::setlocale(LC_ALL, "C");
     ::unsetenv("LOCPATH");
   }
-  /// False where it cannot be had here.
+  /// False if this machine cannot make it.
   bool is_set() const { return is_set_; }
   static constexpr const char* needed =
       "needs a locale that writes 0,75, and localedef (Debian's locales) or setlocale() does not make or take de_DE "

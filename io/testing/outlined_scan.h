@@ -1,6 +1,6 @@
 #pragma once
 
-/// Scans of every kind of grid, and shapes known by a formula, to be written as outlines and read again.
+/// Scans on every kind of grid, and shapes that are given by a formula, for tests that write and read outlines.
 
 #include <filesystem>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace palpate::io::testing {
 
-/// How a scan lies. Its images have 15 columns and 13 rows: odd, so that frames of bits begin within a byte.
+/// The grid of a scan. Its images have 15 columns and 13 rows: odd, so that frames of bits begin within a byte.
 struct ScanKind {
   static constexpr int columns = 15, rows = 13;
   std::string name;
@@ -24,7 +24,7 @@ struct ScanKind {
 const std::vector<ScanKind>& scan_kinds();
 const ScanKind& scan_kind(const std::string& name);
 
-/// The series of a scan that is written there. Its patient's name has letters outside ASCII, in Latin-1.
+/// Writes a scan there and returns its series. The patient's name has letters outside ASCII, in Latin-1.
 Series write_scan(const ScanKind& kind, const std::filesystem::path& folder);
 
 struct Shape {
@@ -35,7 +35,7 @@ struct Shape {
 /// Around the middle of a scan: a ball, a shell with a ball in it, two balls, a ball over a corner.
 std::vector<Shape> shapes_in(const Geometry& scan);
 
-/// A label with everything that there is, in letters outside ASCII.
+/// A label with all fields set, in letters outside ASCII.
 StructureLabel full_label();
 
 const WriteOptions by_test{.software_version = "1.2.3"};

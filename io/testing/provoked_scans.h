@@ -1,6 +1,6 @@
 #pragma once
 
-/// Folders of small DICOM files with something wrong, and what the reader says of them.
+/// Folders of small DICOM files with faults, and the reader's messages about them.
 
 #include <filesystem>
 #include <functional>
@@ -20,21 +20,21 @@ using internal::write_bytes;
 using palpate::testing::Provoked;
 using palpate::testing::said_when;
 
-/// What is said of a folder: why files were set apart, notes on its series, and why the first cannot be loaded.
-/// `between` is done after the headers are read and before the pixels are.
+/// All messages about a folder: why files were set apart, notes on its series, and why the first cannot be loaded.
+/// `between` is called after the headers are read and before the pixels are.
 std::string said_of(
     const std::filesystem::path& folder, const std::function<void()>& between = [] {});
-/// Of a folder that `fill` fills.
+/// The messages about a folder that `fill` fills.
 std::string said_of(const std::function<void(const TestFolder&)>& fill);
 
-/// Of one image whose file's bytes are edited.
+/// The messages about one image after its file's bytes were edited.
 std::string of_bytes(const std::function<std::string(std::string)>& damage);
-/// Of one image whose attributes are edited.
+/// The messages about one image after its attributes were edited.
 std::string of_image(const std::function<void(DcmDataset&)>& edit);
-/// Of a stack of so many slices, 2 mm apart.
+/// The messages about a stack of so many slices, 2 mm apart.
 std::string of_stack(int count, const std::function<void(int, TestImage&)>& change);
 
-/// Each refusal of the reader, by an input that it refuses.
+/// Each refusal of the reader, provoked by an input.
 std::vector<Provoked> provoke_files();
 std::vector<Provoked> provoke_headers();
 std::vector<Provoked> provoke_pixels();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A disk without room, for tests.
+/// A full disk, for tests.
 
 #include <sys/resource.h>
 
@@ -8,7 +8,7 @@
 
 namespace palpate::io::testing {
 
-/// While it lives, no file of this process can be longer.
+/// While it exists, no file of this process can become longer than this.
 class ShortFiles {
  public:
   explicit ShortFiles(rlim_t bytes) {

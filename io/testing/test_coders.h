@@ -1,6 +1,6 @@
 #pragma once
 
-/// Pixels compressed for the tests of the reader, by the coders' own libraries.
+/// Compresses pixels for the tests of the reader, with the codecs' own libraries.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdatset.h>
@@ -12,10 +12,11 @@
 
 namespace palpate::io::internal {
 
-/// From here on TestImage::syntax may be JPEG or RLE.
+/// After this call TestImage::syntax may be JPEG or RLE.
 void register_encoders();
 
-/// The values at (i, j), in lossless JPEG 2000 or, within `near`, JPEG-LS. Throw where the library cannot.
+/// The values at (i, j), in lossless JPEG 2000, or in JPEG-LS with errors up to `near`. They throw if the library
+/// cannot.
 std::vector<Uint8> jpeg2000(int columns, int rows, int bits, bool is_signed, const std::function<int(int, int)>& value);
 std::vector<Uint8> jpeg_ls(int columns, int rows, int bits, int near, const std::function<int(int, int)>& value);
 
@@ -23,8 +24,8 @@ std::vector<Uint8> jpeg_ls(int columns, int rows, int bits, int near, const std:
 void encapsulate(DcmDataset& dataset, E_TransferSyntax syntax, const std::vector<std::vector<Uint8>>& frames,
                  std::size_t longest);
 
-/// Exchanges the syntax in a file written as lossless JPEG 2000 for deflated frames, which DCMTK does not know: its UID
-/// has as many letters.
+/// Changes the syntax of a file that was written as lossless JPEG 2000 to deflated frames, which DCMTK does not know.
+/// Both UIDs have the same length.
 void call_deflated_frames(const std::filesystem::path& file);
 
 }  // namespace palpate::io::internal

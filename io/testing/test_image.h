@@ -1,7 +1,6 @@
 #pragma once
 
-/// Small DICOM files for the tests of the reader, written by DCMTK: one file an image, every attribute free to be
-/// wrong.
+/// Small DICOM files for the tests of the reader, written by DCMTK: one image a file. Every attribute can be changed.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdatset.h>
@@ -19,7 +18,7 @@
 
 namespace palpate::io::internal {
 
-/// A folder of its own under the system's temporary one, removed with its owner.
+/// A new folder below the system's temporary folder. It is removed with its owner.
 class TestFolder {
  public:
   TestFolder() {
@@ -40,7 +39,7 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-void succeed(const OFCondition& condition);  ///< throws where it is not good
+void succeed(const OFCondition& condition);  ///< throws if it is not good
 
 /// An image of 6 columns and 4 rows by default, whose stored value at (i, j) is `value(i, j)`.
 struct TestImage {
@@ -48,9 +47,9 @@ struct TestImage {
   int rows = 4;
   double z = 0;                    ///< of its position (0, 0, z)
   std::string series = "1.2.3.4";  ///< SeriesInstanceUID
-  std::string instance;            ///< SOPInstanceUID; one of its own where empty
+  std::string instance;            ///< SOPInstanceUID; empty: a new one
   std::function<int(int, int)> value = [](int i, int j) { return 10 * i + j; };
-  /// Last word: adds, changes or removes attributes.
+  /// Called last: adds, changes or removes attributes.
   std::function<void(DcmDataset&)> edit = [](DcmDataset&) {};
   E_TransferSyntax syntax = EXS_LittleEndianExplicit;
 };
@@ -68,20 +67,20 @@ void write_stack(
     const std::filesystem::path& folder, int count,
     const std::function<void(int, TestImage&)>& change = [](int, TestImage&) {});
 
-/// What the reader finds there.
+/// The series that the reader finds there.
 Catalogue find_in(const TestFolder& folder);
-/// The one series there. Throws with what is set apart where there is none or there are several.
+/// The only series there. If there is none, or several, throws with the reasons why files were set apart.
 Series only_series_in(const TestFolder& folder);
 Volume load_frame(const Series& series, int frame);
 
-/// Makes the dataset an enhanced one: a frame for each height z (mm), in this order, oriented and spaced as the image
-/// was. `frame` may add to a frame's functional groups.
+/// Makes the dataset an enhanced one with a frame for each height z (mm), in this order. Orientation and spacing stay.
+/// `frame` may add to a frame's functional groups.
 void make_multi_frame(
     DcmDataset& dataset, const std::vector<double>& heights,
     const std::function<void(std::size_t, DcmItem&)>& frame = [](std::size_t, DcmItem&) {});
-/// The dataset's pixels once for each frame.
+/// Repeats the dataset's pixels for each frame.
 void repeat_pixels(DcmDataset& dataset, std::size_t frames);
-/// The item of a functional group, made where it is not there.
+/// The item of a functional group. It is made if it does not exist.
 DcmItem& group(DcmItem& item, const DcmTagKey& sequence);
 
 }  // namespace palpate::io::internal

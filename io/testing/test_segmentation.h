@@ -1,6 +1,6 @@
 #pragma once
 
-/// Small segmentations (DICOM SEG) written by DCMTK, for tests and as seeds for fuzzing.
+/// Small segmentations (DICOM SEG), written by DCMTK for tests and as seeds for fuzzing.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -16,7 +16,7 @@ struct TestSegmentation {
   static constexpr int columns = 13;  ///< odd, so that a frame of bits begins within a byte
   static constexpr int rows = 9;
 
-  /// Of which segment, at which height (mm), and the value of each of its pixels.
+  /// A frame: its segment, its height (mm), and the value of each pixel.
   struct Frame {
     int segment = 1;
     double z = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Scans in NIfTI and MetaImage for the tests of their readers, made byte by byte, and where each voxel has to lie.
+/// Scans in NIfTI and MetaImage, made byte by byte for the tests of their readers, and the right place of each voxel.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace palpate::io::internal {
 
 constexpr int nx = 4, ny = 3, nz = 5;  ///< voxels of each file along its own axes
 
-/// Stored at voxel (a, b, c) of the file: no two are alike, and some are below 0.
+/// The stored value at voxel (a, b, c) of the file. All differ, and some are below 0.
 int stored(int a, int b, int c);
 
 /// Voxels to RAS (NIfTI) or LPS (MetaImage), mm: three rows of four, as a NIfTI header holds its sform.
@@ -25,13 +25,13 @@ using Rows = std::array<std::array<double, 4>, 3>;
 Vec3 place_of(const Rows& rows, int a, int b, int c);
 const Vec3 ras_to_lps(-1, -1, 1);
 
-/// Every voxel of the file lies at its place (mm), with its value, whatever order of axes the volume has.
+/// Checks that every voxel of the file lies at its place (mm) with its value, whatever the volume's order of axes.
 void expect_all(const Volume& volume, const std::function<Vec3(int, int, int)>& lps,
                 const std::function<double(int, int, int)>& value);
 
-/// The one volume that the file holds; a failure, and an empty one, where there is none.
+/// The only volume in the file. If there is none, a test failure and an empty volume.
 Volume only_volume(const std::filesystem::path& file, int frame = 0);
-/// Why the only file of that name and content is refused.
+/// Why a file of that name and content is refused.
 std::string refusal_of(const std::string& name, const std::string& bytes);
 
 template <typename Number>
@@ -42,7 +42,7 @@ std::string as_bytes(Number number, bool big = false) {
   return bytes;
 }
 
-/// All of them in the order of the file, and `volumes` times, each by 1000 more.
+/// All stored values in the order of the file, `volumes` times, each time 1000 higher.
 template <typename Number>
 std::string voxels(bool big = false, int volumes = 1) {
   std::string bytes;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Messages (PS3.7) and the datasets in them, for an archive that does what no library would.
+/// Messages (PS3.7) and their datasets, for an archive that violates the standard as no library would.
 
 #include <cstdint>
 #include <map>
@@ -33,14 +33,14 @@ std::string with_length(const std::string& elements);
 std::string image(const std::string& instance, const std::string& study, const std::string& series);
 std::string store_command(const std::string& instance);
 
-// These write to, and the last reads from, a connected socket. They throw Gone where the peer is gone.
+// These write to a connected socket; the last one reads from it. They throw Gone if the peer has closed it.
 void write_message(int socket, int context, const std::string& command, const std::string& dataset = {});
 void respond(int socket, const Request& request, std::uint32_t status, const std::string& dataset = {},
              int completed = 0, int failed = 0);
-/// Sends an image; its status in the answer.
+/// Sends an image, and returns the status of the answer.
 std::uint32_t store(int socket, int context, const std::string& instance, const std::string& dataset);
 
-/// The presentation context that was proposed for the class. Throws Gone where none was.
+/// The presentation context that was proposed for the class. Throws Gone if none was.
 int context_of(const std::map<int, std::string>& contexts, const std::string& sop_class);
 
 }  // namespace palpate::io::testing

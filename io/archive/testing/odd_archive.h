@@ -1,6 +1,6 @@
 #pragma once
 
-/// An archive that misbehaves, started for a test: odd_archive_main.cpp, a program of its own.
+/// An archive that misbehaves, which a test starts as a program (odd_archive_main.cpp).
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class OddArchive {
     return static_cast<std::size_t>(std::distance(std::filesystem::recursive_directory_iterator(folder_.path()), {}));
   }
 
-  /// What a fetch is refused with; nothing may be left of it.
+  /// The refusal of a fetch. Checks that no files are left.
   std::string refused_fetch(const FetchLimits& limits = {}) {
     std::string said = "no refusal";
     try {

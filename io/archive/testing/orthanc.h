@@ -10,21 +10,21 @@
 
 namespace palpate::io::testing {
 
-/// Empty where Orthanc is not installed.
+/// Empty if Orthanc is not installed.
 std::filesystem::path orthanc_program();
 
 /// Certificates of an authority of the test's own, made with openssl: authority.pem, and for `archive` and `palpate` a
-/// .pem and a .key. The archive's is for 127.0.0.1 and pacs.example, ours for workstation.example. False where openssl
+/// .pem and a .key. The archive's is for 127.0.0.1 and pacs.example, ours for workstation.example. False if openssl
 /// is missing.
 bool make_certificates(const std::filesystem::path& folder);
 
 class Orthanc {
  public:
-  /// Everything lies in `folder`, which is made. With TLS where `certificates` is given. Throws std::runtime_error with
-  /// its log where it does not start.
+  /// All its files lie in `folder`, which is made. Uses TLS if `certificates` is given. Throws std::runtime_error with
+  /// its log if it does not start.
   explicit Orthanc(const std::filesystem::path& folder, const std::filesystem::path& certificates = {});
 
-  /// How we reach it: it knows us as PALPATE and sends to our port.
+  /// Our settings for it. It knows us as PALPATE and sends to our port.
   const Archive& archive() const noexcept { return archive_; }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the tests against a real archive share: Debian's Orthanc, filled with generated series by DCMTK's storescu.
-/// What is expected is read from the files that were put there, and from what DCMTK's own programs say.
+/// Shared by the tests against a real archive: Debian's Orthanc, filled with generated series by DCMTK's storescu. The
+/// expected results come from the files that were stored there and from DCMTK's own programs.
 
 #include <gtest/gtest.h>
 
@@ -23,14 +23,14 @@ struct Instance {
   std::string syntax;
 };
 
-/// Everything in a folder, by SOP instance UID, read with DCMTK alone.
+/// All files in a folder, by SOP instance UID, read with DCMTK only.
 std::map<std::string, Instance> instances(const std::filesystem::path& folder);
 
-/// What an ArchiveError that `act` throws says; "no refusal" where it throws none.
+/// The message of the ArchiveError that `act` throws; "no refusal" if it throws none.
 std::string refusal(const std::function<void()>& act);
 
-/// Two archives with the same content, one of them with TLS; started when the first test needs them. Its tests are in
-/// several files, and are one suite.
+/// Two archives with the same content, one of them with TLS. They are started by the first test that needs them. The
+/// tests are one suite in several files.
 class OrthancTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite();
@@ -42,7 +42,7 @@ class OrthancTest : public ::testing::Test {
   static std::string uid_of(const std::string& series) {
     return instances(made_series() / series).begin()->second.series;
   }
-  /// What was fetched is the series, image by image and pixel by pixel.
+  /// Checks that the fetched files are the series, image by image and pixel by pixel.
   static void expect_same(const std::string& series, const std::filesystem::path& fetched);
 
   static inline std::unique_ptr<FreshFolder> scratch_;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A program that a test starts and ends, by its id.
+/// A program that a test starts and ends.
 
 #include <sys/types.h>
 
@@ -12,16 +12,16 @@ namespace palpate::io::testing {
 
 class Process {
  public:
-  /// Its stdout can be read line by line; its stderr goes to the file `log`, or is dropped where `log` is empty.
+  /// Its stdout can be read line by line; its stderr goes to the file `log`, or is dropped if `log` is empty.
   explicit Process(const std::vector<std::string>& command, const std::filesystem::path& log = {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  /// Ends it: its input ends, then SIGTERM, then after 10 s SIGKILL.
+  /// Ends it: closes its input, then SIGTERM, then after 10 s SIGKILL.
   ~Process();
 
-  /// Waits for the next line; empty where it ends or says nothing for 10 s.
+  /// Waits for the next line. Empty if the program ends or prints nothing for 10 s.
   std::string read_line();
-  /// All that it says until it ends or for 10 s.
+  /// All that it prints until it ends, for at most 10 s.
   std::string read_rest();
   pid_t id() const noexcept { return id_; }
   void signal(int number) const;
@@ -35,9 +35,9 @@ class Process {
   std::string unread_;
 };
 
-/// A TCP port of this machine that nobody listens on now.
+/// A TCP port of this machine on which no program listens.
 int free_port();
-/// Whether somebody listens on a port of this machine.
+/// Whether a program listens on a port of this machine.
 bool is_listening(int port);
 
 }  // namespace palpate::io::testing

@@ -7,7 +7,7 @@
 
 namespace palpate::io::testing {
 
-/// Whether a text holds a message as the table of messages has it: {} stands for what differs.
+/// Whether a text contains a message of the table of messages, in which {} stands for any text.
 inline ::testing::AssertionResult says(std::string_view text, std::string_view message) {
   std::size_t at = 0;
   while (!message.empty()) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Prints what an archive is asked, line by line: what a test compares with the standard.
+/// Prints the requests to an archive line by line, so that a test can compare them with the standard.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace palpate::io::testing {
 
-/// Who calls whom, and the contexts that are offered: an A-ASSOCIATE-RQ's body (PS3.8 9.3.2).
+/// The body of an A-ASSOCIATE-RQ (PS3.8 9.3.2): both AE titles and the proposed contexts.
 void tell_association(const std::string& request);
-/// A command (PS3.7) and its keys, each in a line of its own.
+/// A command (PS3.7) and its keys, each on a line.
 void tell_command(const Elements& command, const Elements& keys);
 
 }  // namespace palpate::io::testing

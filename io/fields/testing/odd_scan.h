@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the tests of the filters read: a filter of each type, a scan with all that can be odd, and painted volumes.
+/// Inputs for the tests of the filters: a filter of each type, a scan with every oddity, and computed volumes.
 
 #include <array>
 #include <memory>
@@ -30,7 +30,7 @@ inline std::shared_ptr<const Volume> odd_scan(double noise = 25) {
       testdata::scan(testdata::make_sphere(11), testdata::make_geometry(grid), {.noise = noise, .circle_radius = 14}));
 }
 
-/// A volume of floats whose values a function of the patient's position gives.
+/// A volume of floats whose values are a function of the position in the patient.
 template <typename F>
 std::shared_ptr<const Volume> painted(const Geometry& geometry, const F& value) {
   Volume v;
