@@ -4,7 +4,7 @@
 
 namespace palpate::io {
 
-/// Corners of the box around all voxel centers, patient space, mm.
+/// Two opposite corners of the box around all voxel centers, patient space, mm.
 struct Box {
   Vec3 low{0};
   Vec3 high{0};

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which of many series to feel first.
+/// The series to feel first, of many.
 
 #include <cstddef>
 #include <optional>
@@ -16,13 +16,13 @@ struct FirstChoice {
   std::string why;  ///< "slices of 1.00 mm, soft kernel B30f, 512 slices"
 };
 
-/// The volume with most to feel. First CT and MR as acquired, before computed or lossy images; then thin slices; then a
-/// kernel for soft tissue, because the noise of a sharp one is felt as roughness; then most slices. Nothing if no
-/// series is usable.
+/// The most suitable volume, or nothing if no series is usable. The order is: CT and MR as acquired, before computed or
+/// lossy images; then thin slices; then a soft-tissue kernel, because the noise of a sharp one is felt as roughness;
+/// then the number of slices.
 std::optional<FirstChoice> choose_first(std::span<const Series> series);
 
-/// Whether a reconstruction kernel sharpens, by the makers' names: Siemens' numbers from 60 on, Canon's FC 30, 50 and
-/// 80 and on, words such as BONE and LUNG.
+/// Whether a reconstruction kernel sharpens, by the manufacturers' names: Siemens' numbers from 60 on, Canon's FC 30,
+/// FC 50 and from FC 80 on, and words such as BONE and LUNG.
 bool is_sharp(const std::string& kernel);
 
 }  // namespace palpate::io

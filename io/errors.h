@@ -12,7 +12,7 @@ class DicomError : public Refusal {
   using Refusal::Refusal;
 };
 
-/// Work that its progress callback stopped. No incomplete result is left.
+/// The progress callback stopped the work. No incomplete result is left.
 class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled") {}

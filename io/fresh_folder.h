@@ -10,7 +10,7 @@ namespace palpate::io {
 class FreshFolder {
  public:
   enum class Readable { by_all, by_owner };
-  /// Throws std::runtime_error where `final_path` exists and is not an empty folder, or cannot be made.
+  /// Throws std::runtime_error if `final_path` exists and is not an empty folder, or cannot be made.
   explicit FreshFolder(std::filesystem::path final_path, Readable readable = Readable::by_all);
   FreshFolder(const FreshFolder&) = delete;
   FreshFolder& operator=(const FreshFolder&) = delete;

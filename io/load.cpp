@@ -83,7 +83,7 @@ void drop_slices(const std::vector<std::size_t>& failed, std::size_t size, Volum
       voxels);
 }
 
-/// Throws DicomError where there are no such slices.
+/// Throws DicomError if there are no such slices.
 LoadOptions::Range checked_range(const SeriesSource::Frame& frame, const std::string& name,
                                  const LoadOptions& options) {
   const int all = static_cast<int>(frame.slices.size());
@@ -121,7 +121,7 @@ void describe_values(const Reading& whole, Storage storage, Volume& volume) {
 }
 
 /// Reads all slices to their places in the volume and adds its warnings. Returns the slices that cannot be read,
-/// ascending. Throws DicomError where none can be.
+/// ascending. Throws DicomError if none can be.
 std::vector<std::size_t> read_slices(const Reading& reading, const std::string& name, const LoadOptions& options,
                                      Volume& volume) {
   std::vector<std::size_t> failed;

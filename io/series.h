@@ -27,7 +27,7 @@ struct Series {
   /// If several volumes share this UID and overlap: what tells this one from the others, such as
   /// "acquisition 2". Else empty.
   std::string part;
-  std::string unit;  ///< of the rescaled values: "HU", or empty where the modality has none
+  std::string unit;  ///< of the rescaled values: "HU", or empty if the modality has none
 
   /// How it was acquired, so that a user can tell it from others. Empty if the file does not say.
   struct Details {
@@ -39,11 +39,11 @@ struct Series {
     std::string sequence;          ///< SequenceName, else ScanningSequence
     std::string contrast;          ///< ContrastBolusAgent
     std::string orientation;       ///< "axial", "coronal", "sagittal", "oblique"; empty where it has no place
-    double thickness_mm = 0;       ///< SliceThickness; 0 where unknown
+    double thickness_mm = 0;       ///< SliceThickness; 0 if unknown
     bool is_derived = false;       ///< ImageType DERIVED: computed from other images
     bool is_projection = false;    ///< a maximum or minimum of several slices
     bool is_lossy = false;         ///< LossyImageCompression
-    double compression_ratio = 0;  ///< LossyImageCompressionRatio; 0 where unknown
+    double compression_ratio = 0;  ///< LossyImageCompressionRatio; 0 if unknown
   } details;
 
   std::vector<std::filesystem::path> files;    ///< in the order of the slices that they hold
@@ -52,7 +52,7 @@ struct Series {
   /// How many images lie at a position (time, b-value, echo, phase): each is a frame, a volume of its own.
   int frames_per_position = 1;
   std::vector<std::string>
-      frame_names;  ///< what each frame is, such as "b = 1000 s/mm2"; one a frame, empty where unknown
+      frame_names;  ///< what each frame is, such as "b = 1000 s/mm2"; one a frame, empty if unknown
 
   /// The window that the file asks for: rescaled values below level - width / 2 are black, above level + width / 2
   /// white (WindowCenter and WindowWidth, the first of several, of the middle slice of the first frame).

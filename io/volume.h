@@ -33,7 +33,7 @@ struct Volume {
   Voxels voxels;  ///< dimensions.x * dimensions.y * dimensions.z, i fastest, then j, then k
   double slope = 1;
   double intercept = 0;
-  std::string unit;                    ///< "HU", or empty where the modality has none
+  std::string unit;                    ///< "HU", or empty if the modality has none
   std::string frame_of_reference_uid;  ///< empty where it is not said
   std::string modality;                ///< DICOM Modality: "CT", "MR", ...
   std::string body_part,

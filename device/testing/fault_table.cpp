@@ -122,7 +122,7 @@ struct FaultEvent {
   EndedBy ended_by;
   double seen_after_s;
   double observed_s;
-  std::function<bool(FaultSession&)> cause;  ///< false where this device cannot have it
+  std::function<bool(FaultSession&)> cause;  ///< false if this device cannot have it
   const char* borne_by = "";                 ///< the kind to which it does nothing
 };
 

@@ -26,7 +26,7 @@ struct HaplySession {
     const std::string text = message.dump();
     protocol.receive({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, service.time);
   }
-  /// The next message; null where none is due.
+  /// The next message; null if none is due.
   nlohmann::json step(const Vec3& force = Vec3(0)) {
     const std::size_t size = protocol.step(force, service.time, packet);
     return size == 0 ? nlohmann::json()
@@ -48,7 +48,7 @@ inline nlohmann::json arm_at(const Vec3& place, const Vec3& acting = Vec3(0)) {
   return {{"inverse3", nlohmann::json::array({arm})}};
 }
 
-/// What a refusal says; nothing where there is none.
+/// What a refusal says; nothing if there is none.
 inline std::string refused(const std::function<void()>& run) {
   try {
     run();

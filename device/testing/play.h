@@ -52,7 +52,7 @@ class Play {
   void touch(double now) noexcept;
   bool unplugged(double now) const noexcept;
 
-  /// Runs the client to its end and prints what became of it and of the device. 0 where both did what the scenario says
+  /// Runs the client to its end and prints what became of it and of the device. 0 if both did what the scenario says
   /// and the last force that the fake saw is zero.
   int run(const std::string& client);
 

@@ -10,7 +10,7 @@ namespace palpate::device {
 /// A folder of its own in the system's temporary one, which any user may read; gone with the object.
 class TestFiles {
  public:
-  /// Throws std::system_error where no folder can be made.
+  /// Throws std::system_error if no folder can be made.
   TestFiles();
   TestFiles(const TestFiles&) = delete;
   TestFiles& operator=(const TestFiles&) = delete;

@@ -25,12 +25,12 @@ class TickTrap {
   ~TickTrap();
 };
 
-/// Once in every thread that will be trapped; false where this kernel cannot trap system calls: then only the rest is
+/// Once in every thread that will be trapped; false if this kernel cannot trap system calls: then only the rest is
 /// counted.
 bool prepare_tick_trap() noexcept;
 /// Of the calling thread, since it began.
 const TrapCounts& trap_counts() noexcept;
-/// "2 allocations, 1 lock", or empty where nothing was caught.
+/// "2 allocations, 1 lock", or empty if nothing was caught.
 std::string describe(const TrapCounts& counts);
 
 }  // namespace palpate::device

@@ -10,7 +10,7 @@ namespace palpate::device {
 
 class UhidMount {
  public:
-  /// Plugs the play's HID device in; the play outlives this. Throws std::system_error where there is no /dev/uhid or no
+  /// Plugs the play's HID device in; the play outlives this. Throws std::system_error if there is no /dev/uhid or no
   /// right to it. Unplugs it where the play says so, and at the end.
   explicit UhidMount(Play& play);
   ~UhidMount();

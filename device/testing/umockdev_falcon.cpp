@@ -56,7 +56,7 @@ struct UmockdevFalcon::Parts {
 
   bool unplugged() const { return play.unplugged(monotonic_time()); }
 
-  /// False where the client died in the middle of it: its memory can no longer be read.
+  /// False if the client died in the middle of it: its memory can no longer be read.
   bool submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
     Urb submitted;
     submitted.client = {static_cast<UMockdevIoctlClient*>(g_object_ref(client)), g_object_unref};

@@ -90,7 +90,7 @@ struct UsbipMount::Parts {
     static_cast<void>(send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL));
   }
 
-  /// False where the kernel has hung up.
+  /// False if the kernel has hung up.
   bool take_frame() {
     Frame frame;
     if (!read_frame(socket, frame)) return false;

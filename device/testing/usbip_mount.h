@@ -11,7 +11,7 @@ namespace palpate::device {
 
 class UsbipMount {
  public:
-  /// Plugs the play's device into a full-speed port; the play outlives this. Throws std::system_error where there is no
+  /// Plugs the play's device into a full-speed port; the play outlives this. Throws std::system_error if there is no
   /// vhci_hcd or no right to it. Unplugs it where the play says so, and at the end.
   explicit UsbipMount(Play& play);
   ~UsbipMount();

@@ -188,7 +188,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
   }
 }
 
-/// What the last answer means for the user. Throws ArchiveError where nothing is worth keeping.
+/// What the last answer means for the user. Throws ArchiveError if nothing is worth keeping.
 void judge(const Archive& archive, const Wanted& wanted, const Ended& ended, std::size_t came, std::size_t unasked,
            const std::string& turned_away, Fetched& result) {
   const Text destination = say("enter-the-destination", archive.calling, archive.listen_port);

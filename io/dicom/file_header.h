@@ -121,7 +121,7 @@ struct FileHeader {
   double instance_number = 0;
   std::string acquisition_time;  ///< date and time; used only for comparison
   std::string content_time;      ///< as acquisition_time
-  double thickness = 0;          ///< SliceThickness, mm; 0 where unknown
+  double thickness = 0;          ///< SliceThickness, mm; 0 if unknown
 
   PixelFormat format;
   int columns = 0;  ///< of one image (of a tile of a mosaic)

@@ -58,7 +58,7 @@ Items read_items(const InputFile& file, std::uint64_t at) {
   }
 }
 
-// Where each frame starts among the fragments, by the offset table; nothing where that is not consistent.
+// Where each frame starts among the fragments, by the offset table; nothing if that is not consistent.
 std::optional<std::vector<std::size_t>> starts_by_table(const Items& items, std::size_t frames) {
   if (items.offset_table.size() != frames) return std::nullopt;
   std::vector<std::size_t> starts;

@@ -23,7 +23,7 @@ const std::string end_of_items("\xFE\xFF\xDD\xE0\0\0\0\0", 8);
 
 const std::string jpeg("\xFF\xD8\xFF\xE0more", 8), other("12345678", 8);
 
-/// The frames' bytes, of what lies behind 5 bytes of something else; nothing where they do not make up so many.
+/// The frames' bytes, of what lies behind 5 bytes of something else; nothing if they do not make up so many.
 std::optional<std::vector<std::string>> frames_in(const std::vector<std::uint32_t>& table,
                                                   const std::vector<std::string>& fragments, std::size_t frames) {
   std::string offsets;

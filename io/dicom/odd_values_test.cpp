@@ -147,7 +147,7 @@ std::vector<int> padding_in(const char* modality, bool is_signed, int value, int
   return padding;
 }
 
-// MR writes 0 where it means nothing by it; and what is above 32767 is below 0 where pixels are signed.
+// MR writes 0 where it means nothing by it; and what is above 32767 is below 0 if pixels are signed.
 TEST(OddValues, PaddingIsWhatTheModalityMeansByIt) {
   using ::testing::ElementsAre;
   EXPECT_THAT(padding_in("CT", false, 0, 0), ElementsAre(0));

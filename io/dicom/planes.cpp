@@ -90,7 +90,7 @@ double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, Fil
   return otherwise;
 }
 
-// Of the dataset, or of a frame's functional group; null where there is none.
+// Of the dataset, or of a frame's functional group; null if there is none.
 void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
   plane.slope = rescale_number(item, DCM_RescaleSlope, 1, header);
   plane.intercept = rescale_number(item, DCM_RescaleIntercept, 0, header);

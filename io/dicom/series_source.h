@@ -19,20 +19,20 @@ struct SeriesSource {
   /// One volume of the series: a time point, an echo, a b-value.
   struct Frame {
     std::vector<Slice> slices;  ///< ascending along direction_i x direction_j
-    std::vector<Vec3> lost;     ///< positions (mm) of slices known to exist that cannot be read
+    std::vector<Vec3> lost;     ///< positions (mm) of slices that are known to exist but cannot be read
   };
 
   std::shared_ptr<const std::vector<internal::FileHeader>> files;  ///< shared by all series of one UID
   std::vector<Frame> frames;
-  std::shared_ptr<const VoxelFile> voxel_file;  ///< of a scan that is no DICOM, which has no files and frames
-  std::shared_ptr<const void> keeper;           ///< of that file, where it was unpacked; else null
+  std::shared_ptr<const VoxelFile> voxel_file;  ///< of a scan that is not DICOM, which has no files and frames
+  std::shared_ptr<const void> keeper;  ///< keeps the unpacked voxel file in existence; null if it was not packed
 
-  /// One direction of a velocity: a frame of the series that holds it.
+  /// One component of a velocity: a frame of the series with that component.
   struct Component {
     std::shared_ptr<const SeriesSource> source;
     std::size_t frame = 0;
   };
-  /// By time, where this is a velocity in three directions; then it has no files and frames of its own.
+  /// By time, for a velocity with three components; such a series has no files and frames of its own.
   std::vector<std::array<Component, 3>> velocities;
 
   const internal::FileHeader& file_of(const Slice& slice) const { return (*files)[slice.file]; }

@@ -24,9 +24,9 @@ struct Stack {
   const SeriesSource& source;
   const Placement& reference;
   double same_place = 0;  ///< mm
-  double thickness = 0;   ///< mm, the slices' usual one; 0 where unknown
+  double thickness = 0;   ///< mm, the slices' usual one; 0 if unknown
   bool is_ct = false;     ///< the table moves on: one acquisition never fills the gaps of another
-  double even_step = 0;   ///< mm, of all slices taken together; 0 where they are not evenly spaced
+  double even_step = 0;   ///< mm, of all slices taken together; 0 if they are not evenly spaced
 
   const Plane& plane(const Slice& slice) const { return source.plane_of(slice); }
   const FileHeader& file(const Slice& slice) const { return source.file_of(slice); }
@@ -212,7 +212,7 @@ bool divides_evenly(const Stack& stack, double distance, double step, std::size_
   return is_multiple(distance, step / static_cast<double>(passes));
 }
 
-// The step of slices of which nearly all follow one another by the same; 0 where they do not.
+// The step of slices of which nearly all follow one another by the same; 0 if they do not.
 double even_step_of(const Lattice& lattice) {
   std::size_t alike = 0;
   for (std::size_t k = 1; k < lattice.heights.size(); ++k) {

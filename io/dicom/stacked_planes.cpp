@@ -15,7 +15,7 @@
 namespace palpate::io::internal {
 namespace {
 
-// The attribute by which frames follow one another, as group << 16 | element; 0 where that is not said.
+// The attribute by which frames follow one another, as group << 16 | element; 0 if that is not said.
 std::uint32_t increment_of(DcmItem& dataset) {
   DcmElement* element = nullptr;
   DcmTagKey tag;
@@ -39,7 +39,7 @@ std::optional<Placement> first_place(DcmItem& dataset, const Plane& plane) {
                         numbers_of(*detector, DCM_ImageOrientationPatient), numbers_of(dataset, DCM_PixelSpacing));
 }
 
-// Where each frame is along the normal, mm from the first one's; empty where that is not said.
+// Where each frame is along the normal, mm from the first one's; empty if that is not said.
 std::vector<double> offsets_of(DcmItem& dataset, const Placement& first, std::size_t frames) {
   if (frames == 1) return {0};
   std::vector<double> offsets = numbers_of(dataset, DCM_GridFrameOffsetVector);

@@ -9,24 +9,24 @@
 
 namespace palpate::io::internal {
 
-/// How a dataset is written.
+/// The encoding of a dataset.
 struct Encoding {
   bool big_endian = false;
   bool explicit_vr = true;
 };
 
-/// Bytes of a dataset, one after the other: of a file as it is, or inflated.
+/// A sequential source of a dataset's bytes: of a file, or inflated.
 class ByteSource {
  public:
   ByteSource() = default;
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
   virtual ~ByteSource() = default;
-  /// Fills `into` as far as there are bytes; returns how many there were.
+  /// Fills `into` as far as bytes are left; returns their number.
   virtual std::size_t read(std::span<std::byte> into) = 0;
-  /// Moves on; false where the bytes end before that.
+  /// Skips bytes; false if fewer than `count` are left.
   virtual bool skip(std::uint64_t count) = 0;
-  /// What is wrong with the bytes where they ended before their end; empty where nothing is.
+  /// Why the bytes ended early; empty if they are intact.
   virtual std::string damage() const { return {}; }
 };
 
@@ -34,16 +34,16 @@ class ByteSource {
 struct PixelElement {
   static constexpr std::uint32_t undefined_length = 0xFFFFFFFF;  ///< compressed pixels, in fragments
   std::uint64_t value_at = 0;                                    ///< bytes of the dataset before its value
-  std::uint32_t length = 0;                                      ///< of its value, as claimed
+  std::uint32_t length = 0;                                      ///< of its value, as the file claims
   bool is_float = false;                                         ///< FloatPixelData or DoubleFloatPixelData
   bool is_double = false;                                        ///< the latter
-  std::string vr;                                                ///< empty where the dataset has none
+  std::string vr;                                                ///< empty if the dataset has none
 };
 
 struct DatasetShape {
-  std::uint64_t header_end = 0;  ///< bytes before the pixel data, or before whatever is behind its place, or all
+  std::uint64_t header_end = 0;  ///< bytes before the pixel data, or before the first element behind its place, or all
   std::optional<PixelElement> pixels;
-  /// Where the outermost elements before the pixels are that somebody wants; what adjoins is one stretch.
+  /// Where the wanted outermost elements before the pixels are; adjoining ones are one stretch.
   struct Stretch {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
@@ -52,10 +52,10 @@ struct DatasetShape {
   bool has_unknown = false;  ///< whether an element is written with the VR UN
 };
 
-/// Walks over a dataset up to the place of its pixel data without building anything. Throws DicomError where a parser
-/// that does build would overflow its stack (sequences nested deeper than any object defined), run for hours (elements
-/// in no order, which is quadratic in DCMTK) or fill the memory (millions of elements), or where the bytes are no
-/// elements or end early. `wants` says of a tag (group << 16 | element) whether somebody wants it.
+/// Walks over a dataset up to its pixel data without building objects. Throws DicomError if the bytes are no elements
+/// or end early, and for a dataset that would harm a parser: sequences nested deeper than in any defined object (stack
+/// overflow), elements out of order (quadratic time in DCMTK), or millions of elements (memory). `wants` returns
+/// whether a tag (group << 16 | element) is wanted.
 DatasetShape check_structure(ByteSource& dataset, Encoding encoding, bool (*wants)(std::uint32_t tag));
 
 }  // namespace palpate::io::internal

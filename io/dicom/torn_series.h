@@ -1,6 +1,6 @@
 #pragma once
 
-/// Series of which an anonymizer changed, or took away, what holds their files together.
+/// Series whose files an anonymizer has separated by changing or removing their common identifiers.
 
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace palpate::io::internal {
 
-/// Whether two images lie alike. Cosines of one series may differ in their last digits from file to file.
+/// Whether two images have the same orientation. Cosines of one series may differ in their last digits between files.
 bool are_parallel(const Placement& a, const Placement& b);
 
-/// Gives files of one series the study, the frame of reference and the patient that the others of it have: where each
-/// file names one of its own although their places make up a stack, and where the patient's id is blank in some.
+/// Repairs files of one series: sets the same study and frame of reference if each file has its own although the
+/// positions form one stack, and fills in the patient id of the others where it is blank.
 void join_torn_series(std::vector<FileHeader>& headers);
 
 }  // namespace palpate::io::internal

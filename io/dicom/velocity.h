@@ -1,6 +1,6 @@
 #pragma once
 
-/// Phase contrast: velocities measured along three directions, and the vector field that they make together.
+/// Phase contrast: velocities measured along three directions, and their vector field.
 
 #include <array>
 #include <vector>
@@ -13,25 +13,25 @@ class DcmItem;
 
 namespace palpate::io::internal {
 
-/// What an image's velocity encoding (direction, unit vector in patient space; venc, cm/s) says of its stored values.
-/// Where the rescaled values are velocities by their unit (`rescale_unit`: cm/s, mm/s, m/s) that counts; otherwise the
-/// whole range of the stored bits stands for -venc to venc. Nothing for a magnitude image, or where venc or direction
-/// is missing. Source: PS3.3 C.8.13.5.14, MR Velocity Encoding.
+/// The meaning of an image's stored values from its velocity encoding (direction: unit vector in patient space; venc:
+/// cm/s). If the unit of the rescaled values (`rescale_unit`) is a velocity (cm/s, mm/s, m/s), these are used;
+/// otherwise the whole range of the stored bits stands for -venc to venc. Nothing for a magnitude image, or if venc or
+/// direction is missing. Source: PS3.3 C.8.13.5.14, MR Velocity Encoding.
 std::optional<VelocityEncoding> velocity_of(const std::vector<double>& direction, std::optional<double> venc,
                                             const std::string& rescale_unit, const Plane& plane,
                                             const PixelFormat& format);
 
-/// The velocity encoding of a single-frame image: by the standard's attributes, or by the sequence's name as Siemens
-/// writes it (..._v150fh: 150 cm/s, feet to head), which also becomes the plane's label. No public document says which
-/// sign Siemens gives to a flow along these letters: it is taken as they read, and `header` remarks on it.
+/// The velocity encoding of a single-frame image: from the standard's attributes, or from Siemens' sequence name
+/// (..._v150fh: 150 cm/s, feet to head), which also becomes the plane's label. No public document defines the sign of a
+/// flow along these letters; it is taken as they read (feet to head is positive), and `header` gets a remark.
 void read_classic_velocity(DcmItem& dataset, FileHeader& header, Plane& plane);
 
-/// Series (or frames of one) of one study and one grid that hold velocities along three independent directions, as
-/// often each, joined: one frame a time.
+/// Joins series (or frames of one) of one study and grid that hold velocities along three independent directions,
+/// equally many of each. Each time point becomes a frame.
 std::vector<Series> join_velocities(const std::vector<Series>& series);
 
-/// The vector field of one time: `components` are what load() gives of each direction, in m/s. Throws DicomError where
-/// they do not lie on one grid.
+/// The vector field of one time point. `components` are the results of load() for each direction, m/s. Throws
+/// DicomError if their grids differ.
 Volume vector_field(std::array<Volume, 3> components, const std::array<Vec3, 3>& directions);
 
 }  // namespace palpate::io::internal

@@ -155,7 +155,7 @@ class NormalProfile {
     }
   }
 
-  /// NaN where less than half of the disk lies in the scan.
+  /// NaN if less than half of the disk lies in the scan.
   double at(int step) const {
     const Vec3 middle = place_ + step * step_mm_ * normal_;
     double sum = 0, count = 0;
@@ -224,7 +224,7 @@ double part_reached(const NormalProfile& profile, int end, int way, double middl
   return 1;
 }
 
-/// Empty where nobody can tell. `rise_noise`: standard deviation of the rise from one step to the next.
+/// Empty if nobody can tell. `rise_noise`: standard deviation of the rise from one step to the next.
 std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double gradient, double value,
                             double rise_noise) {
   constexpr double flat = 0.1;    // of the steepest rise: there the side is reached

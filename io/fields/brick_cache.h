@@ -1,12 +1,11 @@
 #pragma once
 
-/// What is computed of a volume's voxels (gradients, Hessians) in bricks, ahead of a moving point, by a worker of their
-/// own, and kept under a memory bound.
+/// A cache of numbers computed from a volume's voxels (gradients, Hessians), in bricks. A worker thread computes the
+/// bricks ahead of a moving point, within a memory bound.
 ///
-/// Reading never waits: a brick that is not there, or is being replaced at that moment, is simply not read, and the
-/// reader computes the cell itself with the same kernel, to the same bits. A brick is guarded by a sequence number that
-/// is odd while it is written. Source: Boehm, "Can seqlocks get along with programming language memory models?", MSPC
-/// 2012.
+/// Reading never waits. If a brick is missing or being replaced, the reader computes the cell itself with the same
+/// kernel, to the same bits. A sequence number guards each brick; it is odd while the brick is written. Source: Boehm,
+/// "Can seqlocks get along with programming language memory models?", MSPC 2012.
 
 #include <atomic>
 #include <condition_variable>
@@ -24,7 +23,7 @@
 
 namespace palpate::io::internal {
 
-/// Numbers of every voxel of a block, i fastest, those of one voxel side by side. From any thread.
+/// Computes the numbers of every voxel of a block, i fastest, those of one voxel adjacent. Called from any thread.
 struct BrickContent {
   int floats_a_voxel = 0;
   std::function<void(const Block&, std::span<float>)> compute;
@@ -35,26 +34,26 @@ class BrickCache {
   static constexpr int cells =
       16;  ///< edge of a brick; it also holds the first voxels of the next ones, so no cell lies in two
 
-  /// Bricks of the voxels of a region and of no others: as many as fit in `memory_bytes`, at least one. Starts the
-  /// worker where `background`.
+  /// Holds bricks of a region's voxels only: as many as fit in `memory_bytes`, at least one. Starts the worker if
+  /// `background`.
   BrickCache(BrickContent content, const Block& region, std::size_t memory_bytes, bool background);
-  /// Waits for at most one brick.
+  /// Waits until the worker has finished at most one brick.
   ~BrickCache();
   BrickCache(const BrickCache&) = delete;
   BrickCache& operator=(const BrickCache&) = delete;
 
   /// The numbers of a cell's corners (i fastest), if its brick is there. Any number of threads; in the tick.
   bool read(const Block& cell, std::span<float> corners) const noexcept;
-  /// Where the point is now (continuous voxel index): what the worker goes by. In the tick.
+  /// Sets the position (continuous voxel index) around which the worker fills bricks. In the tick.
   void move_to(const glm::dvec3& index) noexcept;
 
-  /// Computes the bricks of a box of voxels (both ends included) now, on this thread, but for those that are there and
-  /// those for which none that is farther away can give its place.
+  /// Computes the bricks of a box of voxels (both ends included) now, on this thread. Skips bricks that are present,
+  /// and those for which no brick that is farther away can be evicted.
   void fill(const glm::ivec3& low, const glm::ivec3& high);
 
   std::size_t capacity() const noexcept { return slots_.size(); }  ///< bricks
   std::size_t filled() const noexcept { return filled_.load(std::memory_order_relaxed); }
-  std::size_t memory_bytes() const noexcept;  ///< bound on what the bricks take
+  std::size_t memory_bytes() const noexcept;  ///< bound on the memory of the bricks
 
  private:
   struct Slot {
@@ -80,7 +79,7 @@ class BrickCache {
   std::vector<std::atomic<std::int32_t>> slot_of_;  ///< by brick; -1: not there
   std::vector<Slot> slots_;
   std::size_t brick_floats_;
-  std::unique_ptr<float[]> numbers_;  ///< of all slots; touched by atomic_ref only
+  std::unique_ptr<float[]> numbers_;  ///< of all slots; accessed by atomic_ref only
   std::atomic<std::size_t> filled_{0};
 
   std::mutex writing_;  ///< between the worker and fill(); no reader takes it

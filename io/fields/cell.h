@@ -18,11 +18,11 @@ struct Cell {
   }
 };
 
-/// The cell that holds a continuous index; false where nothing can be sampled: beyond the hull of the voxel centers,
-/// between slices where some are missing, beside padding that would have a weight.
+/// The cell that holds a continuous index. False if nothing can be sampled there: beyond the hull of the voxel centers,
+/// between slices where some are missing, or with padding that would have a weight.
 bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept;
 
-/// The rescaled value there.
+/// The rescaled value in a cell.
 double trilinear_value(const Volume& volume, const Cell& cell) noexcept;
 
 }  // namespace palpate::io::internal

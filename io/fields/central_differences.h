@@ -1,6 +1,6 @@
 #pragma once
 
-/// Differences between the six neighbors of a voxel, in patient space: the sharpest gradient that a scan has, and the
+/// Differences between the six neighbors of a voxel, in patient space: the sharpest gradient of a scan, and the
 /// noisiest.
 
 #include <array>
@@ -12,18 +12,18 @@
 
 namespace palpate::io::internal {
 
-/// Exact on linear fields whatever the grid: a tilted slice's neighbors are displaced, and of two at different
-/// distances the nearer counts for more (the parabola through the three). One-sided at the edge, beside padding and
-/// beside missing slices; 0 along an axis without neighbors, and in padding.
+/// Exact on linear fields on any grid. On tilted slices the neighbors' displacement is corrected; if the two neighbors'
+/// distances differ, the nearer has more weight (the parabola through the three). One-sided at the edge, beside padding
+/// and beside missing slices; 0 along an axis without neighbors, and in padding.
 class CentralDifferences {
  public:
   CentralDifferences() = default;
-  /// slope: of the volume's rescale.
+  /// slope: the volume's rescale slope.
   CentralDifferences(const Geometry& geometry, double slope);
 
   void at_block(const Volume& volume, const Block& block, const GradientTarget& target) const noexcept;
 
-  /// What differences count for: per step along i and j, and from slice to slice.
+  /// Weights of the differences: per step along i and j, and between slices.
   struct Weights {
     glm::vec3 along_i{0};
     glm::vec3 along_j{0};
@@ -38,7 +38,7 @@ class CentralDifferences {
            const GradientTarget& target) const noexcept;
 
   std::vector<std::array<Weights, 4>> of_slice_;  ///< by Sides
-  std::vector<Sides> sides_;                      ///< where there is a neighboring slice to compare with
+  std::vector<Sides> sides_;                      ///< whether there are neighboring slices to compare with
 };
 
 }  // namespace palpate::io::internal

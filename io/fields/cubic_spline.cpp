@@ -41,7 +41,7 @@ struct Line {
   std::array<bool, 4> there;
 };
 
-/// Continues a line straight. False where neither of the two in the middle is there.
+/// Continues a line straight. False if neither of the two in the middle is there.
 bool complete(const Line& line) noexcept {
   const auto& [v, there] = line;
   if (!there[1] && !there[2]) {

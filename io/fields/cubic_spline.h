@@ -2,11 +2,11 @@
 
 /// Value and gradient from one stencil of 64 voxels: a cubic spline whose coefficients are the voxels themselves.
 ///
-/// Along an axis of the grid it is between the B-spline, which blurs by a standard deviation of 0.58 voxels, and
-/// Catmull and Rom's spline, which passes through the voxels and does not blur. The B-spline's part is 1 along the axis
-/// with the finest voxels, and along others such that the blur is as wide there in mm: thick slices, whose blur would
-/// shift a curved boundary, are not blurred further. All are exact on linear fields, curve smoothly, and have the
-/// gradient of the very value that they give. Source: D. P. Mitchell and A. N. Netravali, "Reconstruction filters in
+/// Along an axis of the grid it is a mixture of the B-spline, which blurs by a standard deviation of 0.58 voxels, and
+/// the Catmull-Rom spline, which interpolates the voxels and does not blur. The B-spline's part is 1 along the axis
+/// with the finest voxels. Along the others it is such that the blur has the same width in mm, so thick slices, whose
+/// blur would shift a curved boundary, are not blurred further. All mixtures are exact on linear fields and smooth, and
+/// the gradient is that of the returned value. Source: D. P. Mitchell and A. N. Netravali, "Reconstruction filters in
 /// computer graphics", SIGGRAPH 1988: the kernels with B + 2 C = 1, whose variance is B / 3 voxels squared.
 
 #include <glm/vec3.hpp>
@@ -27,10 +27,10 @@ struct ValueAndGradient {
 /// The B-spline's part (B) along each axis of a grid.
 Vec3 b_spline_part(const Geometry& geometry) noexcept;
 
-/// In a cell of the volume's (cell.h); part: what b_spline_part() says of its geometry. What the stencil lacks
-/// (beyond the edge, in padding, behind missing slices) is continued straight from what there is, so linear fields stay
-/// exact to the edge; between uneven slices, too, and there the gradient is that of the value to first order. Where all
-/// 64 voxels are alike the value is theirs, to the last bit. In the tick.
+/// In a cell of the volume (cell.h); part: the result of b_spline_part() for its geometry. Missing voxels of the
+/// stencil (beyond the edge, in padding, behind missing slices) are extrapolated linearly, so linear fields stay exact
+/// to the edge. They are also exact between uneven slices; there the gradient is that of the value to first order. If
+/// all 64 voxels are equal, so is the value, to the last bit. In the tick.
 ValueAndGradient cubic_spline(const Volume& volume, const internal::Cell& cell, const Vec3& part) noexcept;
 
 /// The same value, without its gradient. In the tick.

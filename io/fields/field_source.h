@@ -1,7 +1,7 @@
 #pragma once
 
-/// What haptic modes read: fields sampled at one point of patient space (LPS, mm). A scan is one source (VolumeFields);
-/// an analytic phantom or a flow is another.
+/// The input of the haptic modes: fields sampled at one point of patient space (LPS, mm). A scan is one source
+/// (VolumeFields); an analytic phantom or a flow is another.
 
 #include <array>
 #include <cstddef>
@@ -36,14 +36,14 @@ constexpr bool contains(FieldSet set, FieldSet wanted) {
 /// The most structures of a scene that its modes may read.
 inline constexpr std::size_t most_structures = 8;
 
-/// From the surface of a structure.
+/// The distance from the surface of a structure.
 struct Distance {
   double mm = 0;     ///< positive inside
   Vec3 gradient{0};  ///< per mm, along patient axes: inward, of about unit length
 };
 
-/// From the surfaces of a source's structures, in its order; zero where it has fewer. Only the distances that are there
-/// are set and copied: eight take 256 bytes, and each sub-step of a tick copies its sample several times.
+/// The distances from the surfaces of a source's structures, in its order; zero for structures that it lacks. Only
+/// those present are set and copied: eight take 256 bytes, and each sub-step of a tick copies its sample several times.
 class Distances {
  public:
   Distances() noexcept {}
@@ -56,7 +56,7 @@ class Distances {
   ~Distances() = default;
 
   Distance operator[](std::size_t n) const noexcept { return n < size_ ? of_[n] : Distance{}; }
-  /// To be written. Those before it that are not there yet are zero. n: less than most_structures.
+  /// For writing. Entries before it that are not yet set become zero. n: less than most_structures.
   Distance& operator[](std::size_t n) noexcept {
     while (size_ <= n) of_[size_++] = Distance{};
     return of_[n];
@@ -69,8 +69,8 @@ class Distances {
   };
 };
 
-/// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: nothing
-/// is felt there.
+/// Fields at a point. Outside the data (beyond the volume, in padding) `inside` is false and all else is zero: there is
+/// no force there.
 struct Sample {
   bool inside = false;
   double value = 0;
@@ -79,7 +79,8 @@ struct Sample {
   Vec3 tube{0};      ///< unit vector along the tube, or zero
   double low = 0;    ///< value on the thinner side of the boundary
   double high = 0;   ///< value on the denser side
-  /// Whether the gradient was read from a brick computed ahead, or (false) at the sample: slower, with the same bits.
+  /// Whether the gradient was read from a precomputed brick. If not, it was computed at the sample: slower, with the
+  /// same bits.
   bool from_brick = false;
   Distances distance;
 };
@@ -93,8 +94,8 @@ class FieldSource {
 
   /// Fields that sample() can give.
   virtual FieldSet available() const noexcept = 0;
-  /// The wanted fields at a point (mm). Called in the servo tick: no lock, exception or system call. What is not wanted
-  /// is neither computed nor read.
+  /// The wanted fields at a point (mm). Called in the servo tick: no lock, exception or system call. Other fields are
+  /// neither computed nor read.
   virtual Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept = 0;
 };
 

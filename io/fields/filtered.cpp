@@ -24,7 +24,7 @@ std::size_t voxels_in_slice(const Volume& v) {
 }
 
 /// Rescaled values of a slice. Padding and what is no finite float are left out: the smallest of the others stands for
-/// them. `left_out` is empty where there is none.
+/// them. `left_out` is empty if there is none.
 struct Slice {
   cv::Mat values;         // CV_32F
   cv::Mat left_out;       // CV_8U, 255 where a voxel is

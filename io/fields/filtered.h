@@ -10,12 +10,12 @@
 
 namespace palpate::io {
 
-/// The filtered volume: floats on the same voxels, with the raw volume in `filtered_from`. A volume that was filtered
-/// before is filtered from its raw values, never twice. If it has this very filter it is returned as it is; without a
+/// The filtered volume: floats on the same voxels, with the raw volume in `filtered_from`. A filtered volume is
+/// filtered again from its raw values, never twice. If it already has this filter it is returned unchanged; with no
 /// filter the raw volume is returned. Uses all cores; the bits do not depend on their number.
 ///
 /// Padding stays padding, and counts as the smallest value of its slice for its neighbors. The median, bilateral and
-/// non-local means filters work within each slice. The Gaussian works across slices, too, by their true distances. No
+/// non-local means filters work within each slice. The Gaussian also works across slices, by their true distances. No
 /// filter reaches across missing slices. Throws std::invalid_argument as validate() does, and for a velocity field;
 /// Cancelled.
 std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
@@ -23,11 +23,11 @@ std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volu
 
 /// The raw volume of a filtered one; the volume itself if it is not filtered.
 std::shared_ptr<const Volume> raw_of(const std::shared_ptr<const Volume>& volume);
-/// What it was filtered with; none for any other.
+/// The filter of a filtered volume; none for any other.
 Filter filter_of(const Volume& volume);
 
-/// The same values, with the same bits, for the slices first ... last alone: rescaled, slice by slice. There has to be
-/// a filter.
+/// The same values, with the same bits, for the slices first ... last alone: rescaled, slice by slice. `filter` must
+/// not be none.
 std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int first, int last);
 
 }  // namespace palpate::io

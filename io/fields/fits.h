@@ -1,6 +1,6 @@
 #pragma once
 
-/// The plane fits of a scan that need no look at its voxels: of complete neighborhoods, and of those that the volume's
+/// The plane fits of a scan that do not depend on its voxels: of complete neighborhoods, and of those that the volume's
 /// edge cuts off.
 
 #include <array>
@@ -25,9 +25,9 @@ class Fits {
 
   using Sums = std::array<float, space_sums(2)>;
 
-  /// Of a complete neighborhood, by slice.
+  /// The fit of a complete neighborhood, by slice.
   const PlaneFit& whole(int k) const noexcept { return whole_[static_cast<std::size_t>(k)]; }
-  /// The sums of its weights.
+  /// The sums of that fit's weights.
   const Sums& whole_sums(int k) const noexcept { return whole_sums_[static_cast<std::size_t>(k)]; }
 
   /// Whether two slices have the same neighbors at the same distances, and so the same fits.
@@ -35,9 +35,9 @@ class Fits {
     return kind_of_slice_[static_cast<std::size_t>(k)] == kind_of_slice_[static_cast<std::size_t>(other)];
   }
 
-  /// Whether at() may be called: not where slices are all spaced differently.
+  /// Whether at() may be called: not if all slices are spaced differently.
   bool knows_edges() const noexcept { return !edges_.empty(); }
-  /// Of a voxel's neighborhood as the volume's edge cuts it off, where nothing in it is padding.
+  /// The fit of a voxel's neighborhood that the volume's edge cuts off, for a neighborhood without padding.
   const PlaneFit& at(int i, int j, int k) const noexcept {
     const auto row = static_cast<std::size_t>(reduced(j, dimensions_.y, radius_.y, small_.y));
     const auto column = static_cast<std::size_t>(reduced(i, dimensions_.x, radius_.x, small_.x));
@@ -47,7 +47,7 @@ class Fits {
   }
 
  private:
-  /// The voxel of a volume just large enough for one complete neighborhood whose neighborhood is cut off alike.
+  /// The voxel with the same cut-off neighborhood in a volume just large enough for one complete neighborhood.
   static int reduced(int i, int size, int radius, int small) noexcept {
     return i < radius ? i : i >= size - radius ? small - (size - i) : radius;
   }

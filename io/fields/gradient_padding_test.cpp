@@ -21,7 +21,7 @@ namespace palpate::io {
 namespace {
 
 /// Sums of one voxel's neighborhood as the kernel promises them: rows, then columns, then slices, each from the middle
-/// outwards, in single precision. values: of a voxel, 0 where there is none. 1, p, q, w, pp, pq, qq, pw, qw, ww.
+/// outwards, in single precision. values: of a voxel, 0 if there is none. 1, p, q, w, pp, pq, qq, pw, qw, ww.
 class PlainSums {
  public:
   PlainSums(const Volume& volume, const internal::SliceKernel& kernel) : volume_(volume), kernel_(kernel) {}

@@ -83,7 +83,7 @@ struct Vector {
   }
 };
 
-/// LoadRow: void(int slice, int j, int i, int count, float* row): voxels i ... i + count - 1 of a row, 0 where there
+/// LoadRow: void(int slice, int j, int i, int count, float* row): voxels i ... i + count - 1 of a row, 0 if there
 /// are none.
 template <int Order, int Lanes, typename LoadRow>
 class BlockSums {

@@ -23,7 +23,7 @@ bool to_weights(const std::int16_t* stored, int count, const StoredPadding<std::
 bool to_weights(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding, float* weights);
 bool to_weights(const float* stored, int count, const StoredPadding<float>& padding, float* weights);
 
-/// 1 in padding, 0 where there is a value. Returns whether there is any padding.
+/// 1 in padding, 0 if there is a value. Returns whether there is any padding.
 bool mark_padding(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding,
                   std::uint8_t* marks);
 bool mark_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding,

@@ -195,7 +195,7 @@ class StraightBlock {
             static_cast<int>(between_.size())};
   }
 
-  /// A row of the slices in hand: 0 where no value is in reach.
+  /// A row of the slices in hand: 0 if no value is in reach.
   void fit_slices(int k, int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
     const Span plain = padding_ ? plain_span(k, j) : Span{0, tile_.size.x};
     if (plain.begin > 0 || plain.end < tile_.size.x) {

@@ -34,7 +34,7 @@ inline constexpr int fit_rows = 12;
 /// One slice, or two slices at the same distance on both sides, whose values are added to a sum.
 struct SlicePair {
   const float* below = nullptr;  ///< rows one, p, q
-  const float* above = nullptr;  ///< null where there is but one slice
+  const float* above = nullptr;  ///< null if there is but one slice
   float weight = 0;
   float weight_w = 0;  ///< times the offset along the normal
 };

@@ -186,7 +186,7 @@ class TiltedBlock {
   const Fits& fits_;
   Block tile_;
   int rows_;  ///< of a tile, with the kernel's reach
-  int ring_;  ///< slices whose rows of sums are kept; 0 where none can be shared
+  int ring_;  ///< slices whose rows of sums are kept; 0 if none can be shared
   std::vector<float> row_;
   Lines rows_summed_, plane_, sums_, row_fits_;
   std::optional<Lines> padded_fits_;     ///< where the volume can hold padding

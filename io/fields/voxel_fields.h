@@ -18,7 +18,7 @@ class VoxelFields {
   /// `scale_mm`: sigma of the gradients' Gaussian.
   VoxelFields(const Volume& volume, ValueMethod value, double scale_mm);
 
-  /// The value in `Volume::unit`; none where nothing can be sampled: in padding, and where it is no number.
+  /// The value in `Volume::unit`; none if nothing can be sampled: in padding, and where it is no number.
   std::optional<double> value(const glm::ivec3& voxel) const noexcept;
   /// Of a voxel that has a value, given its gradient: patient axes, per mm.
   LowHigh low_high(const glm::ivec3& voxel, const glm::vec3& gradient) const noexcept {

@@ -25,7 +25,7 @@ TEST(MetaImage, LiesWhereItsMatrixSays) {
   }
 }
 
-// HeaderSize: so many bytes before the voxels; -1 where they are what the file ends with (itk::MetaImageIO).
+// HeaderSize: so many bytes before the voxels; -1 if they are what the file ends with (itk::MetaImageIO).
 TEST(MetaImage, VoxelsMayBeginWithinTheirFile) {
   const TestFolder folder;
   write_bytes(folder / "a.raw", "before" + voxels<std::int16_t>());

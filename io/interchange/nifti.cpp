@@ -102,7 +102,7 @@ Header header_of_2(const Numbers& from) {  // nifti2.h
   return header;
 }
 
-/// Nothing where the bytes are the header of neither.
+/// Nothing if the bytes are the header of neither.
 std::optional<std::pair<Header, bool>> header_in(const std::vector<std::uint8_t>& bytes) {
   for (const bool swapped : {false, true}) {
     const Numbers numbers(bytes, swapped);

@@ -21,7 +21,7 @@ struct OutlineComparison {
   Vec3 largest_at_mm{0};  ///< the point that has it
 };
 
-/// Throws DicomError where a surface has no point.
+/// Throws DicomError if a surface has no point.
 OutlineComparison compare_outlines(const ComparedOutline& first, const ComparedOutline& second);
 
 /// The smallest distance between two surfaces; below 0: how deep one of them reaches into the other structure.

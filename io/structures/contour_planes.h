@@ -14,7 +14,7 @@ using Contour = std::vector<Vec3>;
 /// What a file says of the contours of one structure.
 struct ContourRule {
   bool is_exclusive = false;  ///< CLOSEDPLANAR_XOR: what two contours hold is outside
-  double thickness_mm = 0;    ///< of a plane alone; 0 where nobody says it
+  double thickness_mm = 0;    ///< of a plane alone; 0 if nobody says it
 };
 
 /// The contours of one structure, plane by plane.
@@ -30,7 +30,7 @@ struct ContourStack {
 };
 
 /// Contours whose heights differ by 0.01 mm at most lie in one plane, or by as much as points of a contour differ from
-/// its plane (up to 0.1 mm). Throws DicomError where the contours are not planar or not parallel, or have no area. A
+/// its plane (up to 0.1 mm). Throws DicomError if the contours are not planar or not parallel, or have no area. A
 /// plane that is missing between two others is not taken for an empty one: the surface goes on through it.
 ContourStack stack_of(const std::vector<Contour>& contours, const ContourRule& rule = {});
 

@@ -20,7 +20,7 @@ struct ContourRegion {
 /// A contour that crosses itself, or leads to a hole and back along the same way ("keyhole"), fills by even-odd. One
 /// that lies within another cuts a hole, one within that is an island, and so on. Others are joined; cracks of up to
 /// 0.01 mm between them are closed. The same contour twice counts once. Windings and order do not matter. If
-/// `is_exclusive`, all contours fill by even-odd. Throws DicomError where they span more than can be felt.
+/// `is_exclusive`, all contours fill by even-odd. Throws DicomError if they span more than can be felt.
 ContourRegion region_of(const std::vector<ContourPolygon>& contours, bool is_exclusive);
 
 /// mm^2; holes count as less than nothing. `moment`: the centroid times that.

@@ -49,7 +49,7 @@ class DistanceField {
   internal::DistanceParts parts_;
 };
 
-/// The field of a mask's surface. Throws std::invalid_argument where the mask is empty.
+/// The field of a mask's surface. Throws std::invalid_argument if the mask is empty.
 std::shared_ptr<const DistanceField> distance_of(const Mask& mask, const DistanceOptions& options = {});
 
 }  // namespace palpate::io

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Places at which a structure's outline is doubtful: the scan's own edge lies elsewhere, or there is none where the
+/// Places at which a structure's outline is doubtful: the scan's own edge lies elsewhere, or there is none if the
 /// outline ends; and small parts and holes.
 ///
 /// At places of the outline every 2 mm the scan's own edge is looked for along the normal, within 6 mm (scan_edge.h).
@@ -37,7 +37,7 @@ struct DoubtfulPlace {
   double mean_mm = 0;   ///< from the outline to the edge, by area; positive: the edge lies outside. Islands and holes:
                         ///< volume by area. No edge: 0
   double largest_mm = 0;   ///< the one that is farthest away, with its sign. Islands and holes: how deep. No edge: 0
-  double known_to_mm = 0;  ///< +- of the edges in the mean; 0 where there is none
+  double known_to_mm = 0;  ///< +- of the edges in the mean; 0 if there is none
 };
 
 struct DoubtfulPlaces {

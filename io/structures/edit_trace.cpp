@@ -37,7 +37,7 @@ std::vector<TracePoint> thinned(const TraceEdit& edit) {
   return kept;
 }
 
-/// c of (W + diag(mu s^2)) c = -mm; s = 0 where the fit is to be exact.
+/// c of (W + diag(mu s^2)) c = -mm; s = 0 if the fit is to be exact.
 class Fit {
  public:
   Fit(const std::vector<TracePoint>& points, double reach_mm, bool exact) : reach_mm_(reach_mm) {

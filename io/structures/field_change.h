@@ -45,7 +45,7 @@ using Settle = std::function<void(Patch&)>;
 /// The field of the new surface. The distance is measured anew wherever the nearest point of the surface, before or
 /// after, lies within touched_mm of a stretch; everywhere else it keeps its bits. Farther than 20 mm from the changed
 /// surface the coarse lattice gradually keeps what it had. Returns `before` where nothing changed. Throws InvalidInput
-/// where nothing would be left of the structure, or the change is too large.
+/// if nothing would be left of the structure, or the change is too large.
 std::shared_ptr<const DistanceField> changed(const std::shared_ptr<const DistanceField>& before,
                                              const FieldChange& change, int threads, const Settle& settle = {});
 

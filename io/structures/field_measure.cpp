@@ -69,7 +69,7 @@ struct PointsBefore {
   std::vector<Vec3f> closest;
 };
 
-/// What the measure misses of the old surface at a node of the patch, where the surface hardly moves there; none where
+/// What the measure misses of the old surface at a node of the patch, where the surface hardly moves there; none if
 /// it is not known.
 std::optional<float> missed_at(const Patch& patch, const PointsBefore& before, const glm::ivec3& node) {
   const glm::ivec3 place(node.x >> 3, node.y >> 3, node.z >> 3), in = node - place * brick_edge;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double most_bricks = 3e5;
 
-/// The nodes of a brick beside which the surface moves; none where `low` is above `high`.
+/// The nodes of a brick beside which the surface moves; none if `low` is above `high`.
 struct Moved {
   glm::ivec3 low{brick_edge}, high{-1};
 

@@ -41,7 +41,7 @@ struct Patch {
     const glm::ivec3& n = bricks.lattice.bricks;
     return place.x >= 0 && place.y >= 0 && place.z >= 0 && place.x < n.x && place.y < n.y && place.z < n.z;
   }
-  /// The stored nodes of the field's brick at a place of the box; null where there is none.
+  /// The stored nodes of the field's brick at a place of the box; null if there is none.
   const float* stored(const glm::ivec3& place) const {
     const glm::ivec3 at = low + place;
     const std::int32_t slot = old.near.slot_at(at.x, at.y, at.z);
@@ -76,7 +76,7 @@ double measured_at(const Patch& patch, const Vec3& place_mm);
 /// Adds bumps, one for each stretch of the change, wherever the distance was measured anew.
 void add_to_measured(Patch& patch, const RadialBumps& bumps, int threads);
 
-/// The field with the changed bricks in the place of those before. Throws InvalidInput where none is left.
+/// The field with the changed bricks in the place of those before. Throws InvalidInput if none is left.
 DistanceParts stored(const Patch& patch, int threads);
 
 }  // namespace palpate::io::internal

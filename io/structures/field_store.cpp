@@ -37,7 +37,7 @@ float number_of(const Patch& patch, const glm::ivec3& place, const float* stored
   return std::copysign(glm::distance(Vec3f(node) * Vec3f(bricks.lattice.spacing), point), patch.f[nearest]);
 }
 
-/// A brick's nodes and those around it, as they are stored. False where they are those of before.
+/// A brick's nodes and those around it, as they are stored. False if they are those of before.
 bool fill(const Patch& patch, const glm::ivec3& place, float* into) {
   const float* stored = patch.stored(place);
   for (int k = -1; k < brick_edge + 2; ++k) {

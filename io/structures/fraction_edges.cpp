@@ -48,7 +48,7 @@ class Around {
 };
 
 /// Where it is half, going on as it falls: toward the neighbor on the other side, else as on both sides of the voxel.
-/// NaN where no neighbor is on the other side.
+/// NaN if no neighbor is on the other side.
 double distance_to_half(const Around& around, const Vec3& size) {
   const double above = around.at(0, 0, 0) - 0.5;
   double steep = 0;  // squared, per mm

@@ -46,7 +46,7 @@ struct StructureLabel {
   std::optional<Origin> origin;
 };
 
-/// Label of a structure that was found. Reads its file's header. Throws DicomError where that cannot be read. One
+/// Label of a structure that was found. Reads its file's header. Throws DicomError if that cannot be read. One
 /// without a file has its name and color alone.
 StructureLabel label_of(const Structure& structure);
 

@@ -78,7 +78,7 @@ class LabelMapSource final : public MaskSource {
   std::map<int, Box> boxes_;
 };
 
-/// Where each label lies, by its number; nothing where the values are those of an image and no labels.
+/// Where each label lies, by its number; nothing if the values are those of an image and no labels.
 std::optional<std::map<int, Box>> boxes_in(const VoxelFile& image) {
   constexpr std::size_t most_labels = 4096;
   std::map<int, Box> boxes;

@@ -5,7 +5,7 @@
 
 namespace palpate::io {
 
-/// Voxels that are inside, by their centers. Throws DicomError where there is none.
+/// Voxels that are inside, by their centers. Throws DicomError if there is none.
 StructureMeasures measures_of(const Mask& mask);
 
 }  // namespace palpate::io

@@ -11,7 +11,7 @@
 
 namespace palpate::io {
 
-/// A box that holds all places at which these edits can move the edge; none where there are none.
+/// A box that holds all places at which these edits can move the edge; none if there are none.
 std::optional<StructureBox> box_of_edits(std::span<const Edit> edits);
 
 struct OutlineChange {

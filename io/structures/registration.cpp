@@ -33,7 +33,7 @@ void for_items(DcmItem& item, const DcmTagKey& sequence, const Work& work) {
   }
 }
 
-/// Sixteen numbers, row by row, of which the last four are 0, 0, 0, 1 (PS3.3 C.20.2.1.1). Nothing where what they say
+/// Sixteen numbers, row by row, of which the last four are 0, 0, 0, 1 (PS3.3 C.20.2.1.1). Nothing if what they say
 /// scales, shears or mirrors: whatever the file calls it. Matrices are written with some six digits.
 std::optional<RigidMotion> rigid(const std::vector<double>& rows) {
   constexpr double tolerance = 1e-4;

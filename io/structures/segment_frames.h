@@ -26,7 +26,7 @@ struct SegmentationPixels {
   std::vector<std::vector<internal::Fragment>> fragments;
 };
 
-/// Finds the pixels. Throws DicomError where they cannot be there or cannot be decoded.
+/// Finds the pixels. Throws DicomError if they cannot be there or cannot be decoded.
 SegmentationPixels find_pixels(const std::filesystem::path& path, const internal::DatasetStart& start,
                                const internal::PixelElement& pixels, const internal::PixelFormat& format,
                                std::size_t frames);

@@ -36,7 +36,7 @@ std::vector<Structure> segments_of(const TestSegmentation& segmentation, const T
   return find_structures(std::array{folder.path()}).structures;
 }
 
-/// Sets what the shared groups say of the slices; nothing where empty.
+/// Sets what the shared groups say of the slices; nothing if empty.
 void set_slices(DcmDataset& dataset, const std::string& spacing, const std::string& thickness) {
   DcmItem *shared = nullptr, *measures = nullptr;
   succeed(dataset.findAndGetSequenceItem(DCM_SharedFunctionalGroupsSequence, shared, 0));

@@ -233,7 +233,7 @@ class Smoothing {
         }
       }
     }
-    std::array<float, brick_nodes> complete;  // NaN where a neighbor is no node
+    std::array<float, brick_nodes> complete;  // NaN if a neighbor is no node
     bilaplacian(around.data(), stencil_, Rows(), complete.data());
     bool any = false;
     for (int n = 0; n < static_cast<int>(brick_nodes); ++n) {

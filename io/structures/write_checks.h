@@ -14,10 +14,10 @@ inline Existing existing(const WriteOptions& options) {
   return options.overwrite ? Existing::replace : Existing::keep;
 }
 
-/// Throws DicomError where the file is the one that was corrected, or check_may_write() does.
+/// Throws DicomError if the file is the one that was corrected, or check_may_write() does.
 void check_target(const StructureLabel& label, const std::filesystem::path& file, const WriteOptions& options);
 
-/// The first and the last slice with a voxel inside. Throws DicomError where there is none.
+/// The first and the last slice with a voxel inside. Throws DicomError if there is none.
 std::pair<int, int> occupied_slices(const LabelImage& image);
 
 }  // namespace palpate::io

@@ -22,7 +22,7 @@ struct FaultReport {
   double strongest_n = 0;      ///< that was sent, likewise
 };
 
-/// $XDG_STATE_HOME/palpate/last-fault.csv, or ~/.local/state/palpate/last-fault.csv; empty where there is neither.
+/// $XDG_STATE_HOME/palpate/last-fault.csv, or ~/.local/state/palpate/last-fault.csv; empty if there is neither.
 std::filesystem::path fault_file();
 
 /// Writes the file again. Does nothing if the ticks hold no fault, or if there is no place for the file. Never throws.

@@ -78,7 +78,7 @@ std::optional<std::string> find_program(const std::string& name) {
   return std::nullopt;
 }
 
-/// Nothing where the program fails.
+/// Nothing if the program fails.
 std::optional<Run> time_program(const std::vector<std::string>& call) {
   std::vector<char*> arguments;
   for (const std::string& word : call)

@@ -43,7 +43,7 @@ struct FeltPath {
   double seconds = 0;  ///< to feel it
 };
 
-/// The probe moves along the path at a constant speed, one tick a millisecond. Throws Refusal where a balance is not
+/// The probe moves along the path at a constant speed, one tick a millisecond. Throws Refusal if a balance is not
 /// solved.
 FeltPath feel_path(const FeltScene& felt, const PlannedPath& path, double speed_mm_per_s);
 
@@ -63,7 +63,7 @@ class ForceErrors {
  public:
   ForceErrors();
 
-  /// `off_mm`: how far a place is from the nearest true boundary; empty where nobody knows.
+  /// `off_mm`: how far a place is from the nearest true boundary; empty if nobody knows.
   void add(const FeltPath& truth, const FeltPath& felt, const std::function<double(const glm::dvec3&)>& off_mm);
   void add_refused() { ++refused_; }
   void merge(const ForceErrors& other);

@@ -32,7 +32,7 @@ io::Mask shifted(const io::Mask& mask, int columns);
 io::Mask ragged(const io::Mask& mask, int voxels, std::uint64_t seed);
 
 /// The automatic scene, the scan's starting scene, and labels that are wrong by a known amount. Throws InputRefused
-/// where no structure of the catalogue lies on the scan.
+/// if no structure of the catalogue lies on the scan.
 std::vector<ForceGroup> label_groups(const std::shared_ptr<const io::Volume>& volume,
                                      const io::StructureCatalogue& structures, std::uint64_t seed);
 

@@ -8,7 +8,7 @@ namespace {
 constexpr double walk_mm = 0.5;
 constexpr int most_tries = 400;
 
-/// From the target outwards; empty where the way breaks the rule.
+/// From the target outwards; empty if the way breaks the rule.
 std::optional<glm::dvec3> way_out(const PathWorld& world, const PathTarget& target, const glm::dvec3& place,
                                   const glm::dvec3& outward) {
   double outside_from = -1;

@@ -37,7 +37,7 @@ struct PathWorld {
   double before_mm = 6;   ///< of the path, outside
 };
 
-/// The path of this number, which depends on the seed and the number alone. The targets take turns. Empty where no way
+/// The path of this number, which depends on the seed and the number alone. The targets take turns. Empty if no way
 /// to the target was found that keeps the rule.
 std::optional<PlannedPath> plan_path(const PathWorld& world, std::uint64_t seed, std::size_t number);
 

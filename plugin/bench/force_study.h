@@ -29,7 +29,7 @@ struct ForceGroup {
   PathWorld world;
   MakeFelt truth;
   double speed_mm_per_s = 50;
-  /// How far a place is from the nearest true boundary, mm; empty where nobody knows.
+  /// How far a place is from the nearest true boundary, mm; empty if nobody knows.
   std::function<double(const glm::dvec3&)> off_mm;
   std::vector<ForceRow> rows;
 };

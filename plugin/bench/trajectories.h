@@ -15,7 +15,7 @@
 namespace palpate::plugin {
 
 struct MeasuredSample {
-  double time_s = 0;          ///< 0 where the file has no times
+  double time_s = 0;          ///< 0 if the file has no times
   glm::dvec3 position_mm{0};  ///< of the tip on the object
   glm::dvec3 force_n{0};      ///< of the object on the tip
 };
@@ -30,7 +30,7 @@ std::vector<MeasuredSample> read_trajectory(const std::filesystem::path& file, c
 
 /// The measured force against the felt one. The hand's probe lies in the object by force / stiffness, as the
 /// repository's own in-trajectories do, so that a perfect rendering gives the measured force. One tick a sample; the
-/// scene's stiffness is `stiffness_n_per_mm`. Throws Refusal where a balance is not solved.
+/// scene's stiffness is `stiffness_n_per_mm`. Throws Refusal if a balance is not solved.
 ForceErrors compare_with_measured(std::span<const MeasuredSample> samples, const FeltScene& felt,
                                   double stiffness_n_per_mm);
 

@@ -26,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using device::Felt;
 
-/// The first letter of the answer, small; nothing where there is no more input.
+/// The first letter of the answer, small; nothing if there is no more input.
 std::optional<char> answer_to(const char* question) {
   put("{} ", question);
   std::fflush(stdout);

@@ -40,7 +40,7 @@ struct InfoOptions {
 /// A series as its header and its voxels show it.
 struct Examined {
   io::Series series;
-  io::Statistics values;  // of all frames, without padding; count 0 where nothing could be read
+  io::Statistics values;  // of all frames, without padding; count 0 if nothing could be read
   io::Statistics with_padding;
   bool is_first_choice = false;
   std::string name;  // for --series
@@ -125,7 +125,7 @@ Json json_of(const Examined& examined) {
   return json;
 }
 
-// "series 4 of 20260104 at 101500, CHEST, axial, kernel B30f, 1 mm thick, "; empty where nothing is said.
+// "series 4 of 20260104 at 101500, CHEST, axial, kernel B30f, 1 mm thick, "; empty if nothing is said.
 std::string details_of(const io::Series& s) {
   const io::Series::Details& d = s.details;
   std::string text;

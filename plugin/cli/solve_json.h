@@ -8,7 +8,7 @@
 ///      "direction": [..]}. "id" may be missing, and "previous", which is then the probe; a force needs no position, a
 ///      point no direction. Other keys are not read.
 /// Out: {"id", "proxy": [m,m,m], "force": [N,N,N], "forces": [[N,N,N],..], "solver", "error_bound": m, "iterations",
-///      "time_ns"}, or {"id", "error": words that name the primitive and the field}. The id is null where none could be
+///      "time_ns"}, or {"id", "error": words that name the primitive and the field}. The id is null if none could be
 ///      read. Numbers read back as the same doubles. Where the cap on work was hit, "capped": true says so and the
 ///      error bound is that of the best answer found.
 

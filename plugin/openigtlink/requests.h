@@ -47,7 +47,7 @@ void check_file(const Server::Request& request, const std::string& file);
 /// The same for each file that a scene names and the felt scene does not. A structure that is drawn has none.
 void check_files(const Server::Request& request, const modes::Scene& wanted, const modes::Scene& felt);
 
-/// Throws Refusal where no scan is open.
+/// Throws Refusal if no scan is open.
 void check_scan(bool is_open);
 
 }  // namespace internal

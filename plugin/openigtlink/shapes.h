@@ -19,7 +19,7 @@ struct Shape {
 };
 
 /// Boundaries that a scan's values make are surfaces where they can be felt, by the names of their modes. A label map
-/// is sent of each structure that has edits, on the voxels of the scan; none where the scan's slices are uneven, since
+/// is sent of each structure that has edits, on the voxels of the scan; none if the scan's slices are uneven, since
 /// OpenIGTLink has a single step. None without a scan. On any
 /// thread; takes up to seconds.
 std::vector<Shape> shapes_of(const PreparedScene& felt, const modes::Scene& scene);

@@ -15,7 +15,7 @@ namespace palpate::plugin {
 
 struct SeriesOption {
   std::string path;    ///< SERIES: a folder or a file
-  std::string series;  ///< --series: a number or name as `palpate info` lists them; empty where only one is usable
+  std::string series;  ///< --series: a number or name as `palpate info` lists them; empty if only one is usable
   int frame = 0;       ///< --frame: which of several images at a position
 };
 

@@ -194,7 +194,7 @@ TEST(MarksOf, ARecordingAreItsPresses) {
   EXPECT_GT(at_ends, 0) << "pressed from the first tick to the last";
 }
 
-/// The angle between any two ways; none where one of them has no length. Along one line it is 0 or 180, whatever
+/// The angle between any two ways; none if one of them has no length. Along one line it is 0 or 180, whatever
 /// rounding makes of its cosine.
 TEST(MarksOf, AnglesAreThoseBetweenTheirWays) {
   std::mt19937 random(12);

@@ -108,7 +108,7 @@ bool Recorder::has_room() const {
   return unknown || space.available >= options_.spare_bytes;
 }
 
-/// False where there was nothing to write.
+/// False if there was nothing to write.
 bool Recorder::write_batch() {
   const std::uint64_t written = ring_.written();  // first: the scenes of these ticks are among the events
   std::vector<std::function<void(RecordingWriter&)>> events;

@@ -75,7 +75,7 @@ struct Recording {
   std::vector<TickRecord> ticks;
   std::vector<PrimitiveRecord> shares;  ///< tick by tick, in the order of the primitives
   /// One a tick: the true boundary is within this of the proxy in 95 of 100 places, mm
-  /// (io/fields/boundary_uncertainty.h). NaN where no boundary of the scan holds the proxy, while a scene changes, and
+  /// (io/fields/boundary_uncertainty.h). NaN if no boundary of the scan holds the proxy, while a scene changes, and
   /// where the recording thread was far behind. Empty: recorded by a version before 0.2.0.
   std::vector<double> known_to_mm;
   std::vector<SceneRecord> scenes;

@@ -135,7 +135,7 @@ class Painter {
     return {byte(color.red), byte(color.green), byte(color.blue)};
   }
 
-  /// Null where none is felt. What lies on the two sides is asked only where value and gradient let a mode be felt.
+  /// Null if none is felt. What lies on the two sides is asked only where value and gradient let a mode be felt.
   std::pair<const modes::Mode*, double> strongest_at(const glm::ivec3& voxel, const glm::vec3& gradient) const {
     std::pair<const modes::Mode*, double> strongest{nullptr, 0};
     const auto value = voxels_.value(voxel);

@@ -19,7 +19,7 @@ struct EdgeBeside {
   double known_to_mm = 0;  ///< two standard deviations
 };
 
-/// Within so many mm of each place along the outline's normal; none where the scan has no edge. Takes about a
+/// Within so many mm of each place along the outline's normal; none if the scan has no edge. Takes about a
 /// millisecond for each place. Throws io::Cancelled.
 std::vector<std::optional<EdgeBeside>> edges_beside(std::span<const io::Vec3> places, const io::DistanceField& outline,
                                                     const std::shared_ptr<const io::Volume>& scan, double within_mm,

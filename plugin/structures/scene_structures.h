@@ -19,13 +19,13 @@ namespace palpate::plugin {
 
 /// A structure's distance on a scan, and what it was made of.
 struct LoadedStructure {
-  std::string file;            ///< as the scene names it, with its folder; empty where the scene's contours make it
+  std::string file;            ///< as the scene names it, with its folder; empty if the scene's contours make it
   std::string segment;         ///< its name or number
   std::vector<Text> warnings;  ///< of how it lies on the scan
   std::optional<RegisteredStructure> registered;
   std::shared_ptr<const io::DistanceField> distance;
   std::vector<io::Edit> edits{};  ///< of its outline, which `distance` has
-  /// The field before the first edit (null where contours make it), and after each but the last: to undo an edit is to
+  /// The field before the first edit (null if contours make it), and after each but the last: to undo an edit is to
   /// take one of them.
   std::vector<std::shared_ptr<const io::DistanceField>> before_edits{};
 };
@@ -45,7 +45,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
                                              std::span<const RegisteredStructure> recorded = {});
 
 /// Those of another frame of the scan's series, or of the same scan in other values: without the fields of edits that
-/// read the scan. None where the two do not lie alike, or are not of one patient.
+/// read the scan. None if the two do not lie alike, or are not of one patient.
 std::vector<LoadedStructure> carried_over(const std::vector<LoadedStructure>& structures, const io::Volume& from,
                                           const io::Volume& to);
 

@@ -40,7 +40,7 @@ modes::Mode mode_of(const modes::Scene& scene, const std::string& type, const st
   return mode;
 }
 
-/// Whether two agree; nothing where one of them is not said.
+/// Whether two agree; nothing if one of them is not said.
 std::optional<bool> agree(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return std::nullopt;
   return a == b;

@@ -2,6 +2,6 @@
 
 namespace palpate::io::internal {
 
-inline constexpr double gaussian_reach = 3;  ///< of its weights, standard deviations
+inline constexpr double gaussian_reach = 3;  ///< radius of the kernel, standard deviations
 
 }  // namespace palpate::io::internal

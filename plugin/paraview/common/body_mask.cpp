@@ -56,7 +56,7 @@ cv::Mat disc(double radius_mm, double pixel_mm) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
-/// The pieces of all slices, linked where they lie above each other; -1 where there is none.
+/// The pieces of all slices, linked where they lie above each other; -1 if there is none.
 std::vector<cv::Mat> label_pieces(const std::vector<cv::Mat>& slices, Pieces& pieces) {
   std::vector<cv::Mat> labels;
   for (const cv::Mat& slice : slices) {

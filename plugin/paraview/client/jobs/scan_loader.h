@@ -26,7 +26,7 @@ struct ScanCopy {
 /// One at a time: a new one cancels the last. All callbacks come on the UI thread, none after cancel() or destruction.
 class ScanLoader {
  public:
-  /// Empty where the job failed or was cancelled; then `error` says why, or is empty if it was cancelled.
+  /// Empty if the job failed or was cancelled; then `error` says why, or is empty if it was cancelled.
   using Found = std::function<void(std::shared_ptr<const io::Catalogue>, const std::string& error)>;
   using Loaded = std::function<void(std::shared_ptr<const io::Volume>, const std::string& error)>;
   using Studied = std::function<void(std::shared_ptr<const ScanStudy>, const std::string& error)>;

@@ -13,7 +13,7 @@ namespace palpate::plugin {
 
 class EmptyCenter : public QObject {
  public:
-  /// Puts the page beside ParaView's views; not in sight yet. Does nothing where this ParaView has its views elsewhere.
+  /// Puts the page beside ParaView's views; not in sight yet. Does nothing if this ParaView has its views elsewhere.
   EmptyCenter(QMainWindow& window, QWidget& page, QObject* parent);
 
   /// Whether ParaView is as it is without us: then its own views stay.

@@ -42,7 +42,7 @@ void follow(pqColorMapEditor& panel) {
 /// It holds what it shows weakly.
 void let_go(pqColorMapEditor& /*panel*/) {}
 
-/// Not the dock's visibilityChanged: it is false where the dock is shown before it is laid out.
+/// Not the dock's visibilityChanged: it is false if the dock is shown before it is laid out.
 template <typename Panel>
 class WhileSeen : public QObject {
  public:

@@ -46,7 +46,7 @@ TEST_F(Correcting, TheScansEdgeIsFeltHalfWay) {
   }
 }
 
-/// Two planes, one to each side: a step that can be undone, and nothing where no outline is near.
+/// Two planes, one to each side: a step that can be undone, and nothing if no outline is near.
 TEST_F(Correcting, TheStylusIsHeldInASlice) {
   const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
   model.hold_in(slice);

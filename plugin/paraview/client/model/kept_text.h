@@ -17,10 +17,10 @@ class KeptText : public QObject {
 
   /// Whether there is a place for them.
   virtual bool is_open() const = 0;
-  /// Makes a place that holds this scene; opened() follows. Does nothing where ParaView has no session.
+  /// Makes a place that holds this scene; opened() follows. Does nothing if ParaView has no session.
   virtual void open(const std::string& scene) = 0;
 
-  /// Empty where there is none.
+  /// Empty if there is none.
   virtual std::string text(const char* key) const = 0;
   /// One step that can be undone, which ParaView's menu names `what`; where that is empty, none.
   virtual void keep(const char* key, const std::string& text, const QString& what) = 0;

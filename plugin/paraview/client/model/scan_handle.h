@@ -36,7 +36,7 @@ struct ScanHandle {
   int frames = 1;
   std::vector<std::string> frame_names;  ///< "b = 1000 s/mm2", one a frame, or fewer where unknown
 
-  /// "b = 1000 s/mm2, 5 of 17", counted from 1; empty where there is one frame alone.
+  /// "b = 1000 s/mm2, 5 of 17", counted from 1; empty if there is one frame alone.
   QString frame_in_words() const { return frame_in_words(frame); }
   QString frame_in_words(int of_frame) const;
   /// Series and frame.

@@ -28,7 +28,7 @@ struct FoundList {
   std::vector<SeriesOnServer> on_server = {};
 
   std::size_t count() const;
-  /// The only one that is a volume; none where there are several, or none.
+  /// The only one that is a volume; none if there are several, or none.
   std::optional<std::size_t> only() const;
   SeriesRef at(std::size_t series) const;
 };

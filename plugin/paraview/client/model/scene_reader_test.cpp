@@ -166,7 +166,7 @@ TEST_F(SceneReading, AScanThatIsExpectedIsFeltWhenItsStructuresAreRead) {
   }
 }
 
-/// Of two scans the last is felt, and none where there is to be none.
+/// Of two scans the last is felt, and none if there is to be none.
 TEST_F(SceneReading, AScanThatIsReadForGivesWayToTheNext) {
   modes::Scene scene = model.scene();
   keeping_out(2)(scene);

@@ -40,7 +40,7 @@ struct SessionStatus {
   modes::Workspace workspace;           ///< of the tick
   glm::dvec3 probe_mm{0}, proxy_mm{0};  ///< patient space
   std::string tissue;
-  std::string held;                         ///< the boundary that holds the proxy, in words; empty where none does
+  std::string held;                         ///< the boundary that holds the proxy, in words; empty if none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
   double force_n = 0;                       ///< that the device was fed, in the last tick
   double peak_n = 0;                        ///< the largest since the last poll

@@ -60,7 +60,7 @@ class BoundaryRow : public QObject {
   QCheckBox* on_ = nullptr;
   QToolButton* color_ = nullptr;
   QLineEdit* name_ = nullptr;
-  QComboBox* direction_ = nullptr;  // null where there is one direction
+  QComboBox* direction_ = nullptr;  // null if there is one direction
   QDoubleSpinBox* strength_ = nullptr;
   QLabel* alike_ = nullptr;
 };

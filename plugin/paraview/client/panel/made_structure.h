@@ -28,11 +28,11 @@ struct MadeStructure {
   io::Structure structure;
   std::weak_ptr<const io::Volume> scan;  ///< that it was made on
   std::vector<io::Edit> edits;
-  std::string error;                                      ///< empty where all was made
+  std::string error;                                      ///< empty if all was made
   std::shared_ptr<const io::StructureMeasures> measures;  ///< of the outline in its file
   std::shared_ptr<const io::DistanceField> outline;       ///< that the edits change; null where it is not drawn
   DrawnStructure drawn;                                   ///< without a distance where it is not drawn
-  std::optional<io::OutlineChange> change;                ///< by the edits; none where there are none
+  std::optional<io::OutlineChange> change;                ///< by the edits; none if there are none
   OutlineEdges edges;                                     ///< the scan's own at the file's outline
 };
 

@@ -26,7 +26,7 @@ class MarksSection : public QWidget {
  public:
   MarksSection(MarksModel& model, SessionController& session, QWidget* parent = nullptr);
 
-  /// How many marks and measures there are; empty where there are none.
+  /// How many marks and measures there are; empty if there are none.
   QString in_words() const;
   void tell(const QString& message, bool problem = false);
   MarksSender& sender() { return *sender_; }

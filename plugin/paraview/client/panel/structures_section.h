@@ -47,7 +47,7 @@ class StructuresSection : public QWidget {
   void set_frame(const std::shared_ptr<const io::Volume>& frame);
   /// Looks into these files, too; `problem` is said where it is not empty.
   void add(const std::vector<std::filesystem::path>& files, const QString& problem);
-  /// How many can be felt on the scan, and how many cannot; empty where none was found.
+  /// How many can be felt on the scan, and how many cannot; empty if none was found.
   QString in_words() const;
   CorrectBox& correct_box() { return *correct_box_; }
   /// The corrected structure's distance as it is felt; null: nothing is corrected, or it is not read yet.

@@ -21,7 +21,7 @@ struct ServerSeries {
   vtkSmartPointer<vtkSMSourceProxy> finder;
 };
 
-/// The active server where it is another program than this one; null where not.
+/// The active server where it is another program than this one; null if not.
 pqServer* remote_server();
 
 /// Looks in a folder of the server, or in the folder of a file there. Blocks while the server reads headers. Throws

@@ -25,7 +25,7 @@ namespace palpate::plugin {
 /// events are handled. No callback comes after cancel() or destruction.
 class ServerStructures : public QObject {
  public:
-  /// `said`: why some are not here; empty where all are.
+  /// `said`: why some are not here; empty if all are.
   using Done = std::function<void(const std::vector<std::filesystem::path>& files, const QString& said)>;
 
   /// `reader`: a PalpateDicomReader that is up to date.

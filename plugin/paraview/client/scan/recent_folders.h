@@ -10,7 +10,7 @@ namespace palpate::plugin {
 /// Those that are still there.
 QStringList recent_folders();
 void remember_folder(const QString& folder);
-/// Where a dialog for a folder begins: beside the one that was last opened; empty where there is none.
+/// Where a dialog for a folder begins: beside the one that was last opened; empty if there is none.
 QString last_place();
 
 }  // namespace palpate::plugin

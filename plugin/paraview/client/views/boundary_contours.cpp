@@ -85,7 +85,7 @@ struct BoundaryContours::One {
     if (kept.size() > most_kept) kept.pop_back();
     draw(*drawn);
   }
-  /// The lines of a scene on the slice that is shown; null where they are not kept.
+  /// The lines of a scene on the slice that is shown; null if they are not kept.
   std::shared_ptr<const Drawn> kept_of(const Felt& felt) const {
     const auto is_it = [&](const auto& drawn) {
       return drawn->felt && drawn->slice == slice->slice() && drawn->felt->volume == felt.volume &&

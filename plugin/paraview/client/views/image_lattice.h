@@ -38,9 +38,9 @@ class ValueProbe {
  public:
   explicit ValueProbe(vtkSMSourceProxy& reader);
   std::optional<double> at(const glm::dvec3& place);
-  /// Below the n-th are n percent of the voxels; empty where that is not known.
+  /// Below the n-th are n percent of the voxels; empty if that is not known.
   std::vector<double> shares();
-  /// Of the patient's body, what is as light as lungs, 0 to 1; none where that is not known.
+  /// Of the patient's body, what is as light as lungs, 0 to 1; none if that is not known.
   std::optional<double> light_part();
 
  private:

@@ -43,7 +43,7 @@ vtkPVRenderView& render_view_of(const pqRenderView& view) {
   return *vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
 }
 
-/// A copy of a CT of which nothing but the body is left; null where there is nothing else.
+/// A copy of a CT of which nothing but the body is left; null if there is nothing else.
 vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
   vtkDataArray& values = *image.GetPointData()->GetScalars();
   const int* const size = image.GetDimensions();

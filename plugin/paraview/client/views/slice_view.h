@@ -62,7 +62,7 @@ struct SharedWindow {
   bool texts_shown = true;
   /// Who was scanned, which series and when, in lines; on the screen alone.
   QString identity;
-  QString frame;            ///< "frame 3 of 17"; empty where there is one
+  QString frame;            ///< "frame 3 of 17"; empty if there is one
   QString window_name;      ///< of the window
   double thickness_mm = 0;  ///< of the slices as they were scanned; 0: unknown
   /// Called when the user goes to another slice.

@@ -27,7 +27,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// Of OpenGL; empty where there is none.
+/// Of OpenGL; empty if there is none.
 QByteArray renderer_name() {
   QOffscreenSurface surface;
   surface.create();

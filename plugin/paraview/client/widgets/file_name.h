@@ -12,7 +12,7 @@
 namespace palpate::plugin {
 
 /// `title` of the dialog; `filter` as in "Pictures (*.png)"; `suffix`: that the file gets where it has none;
-/// `proposed`: a name or nothing. Empty where the user changes their mind.
+/// `proposed`: a name or nothing. Empty if the user changes their mind.
 inline QString ask_file_to_write(QWidget* parent, const QString& title, const QString& filter, const QString& suffix,
                                  const QString& proposed = {}) {
   QFileDialog dialog(parent, title, {}, filter);

@@ -23,7 +23,7 @@ class PALPATESERVER_EXPORT PalpateValueProbe : public vtkObject {
   void SetPosition(double x, double y, double z) { position_ = {x, y, z}; }
   /// As PalpateDicomReader::ValueAt().
   double GetValue();
-  /// As PalpateDicomReader::GetValueShares(), empty where that is null.
+  /// As PalpateDicomReader::GetValueShares(), empty if that is null.
   vtkDoubleArray* GetShares();
   /// As PalpateDicomReader::GetLightPart().
   double GetLightPart();

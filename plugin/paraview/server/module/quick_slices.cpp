@@ -105,7 +105,7 @@ class QuickSlices : public vtkImageSliceRepresentation {
   }
 
  private:
-  /// Null where ParaView's own is to be shown.
+  /// Null if ParaView's own is to be shown.
   vtkAlgorithmOutput* turn(vtkAlgorithmOutput& given) {
     auto* const slice = vtkImageData::SafeDownCast(given.GetProducer()->GetOutputDataObject(given.GetIndex()));
     if (!slice || vtkStructuredData::GetDataDescriptionFromExtent(slice->GetExtent()) != VTK_YZ_PLANE ||
@@ -133,7 +133,7 @@ void quicken_slices() {
         [](vtkClientServerInterpreter* made) { made->AddNewInstanceFunction(name, &QuickSlices::make); });
     return true;
   }();
-  auto* const process = vtkProcessModule::GetProcessModule();  // null where a program uses the reader alone
+  auto* const process = vtkProcessModule::GetProcessModule();  // null if a program uses the reader alone
   auto* const session = process ? vtkPVSessionBase::SafeDownCast(process->GetSession()) : nullptr;
   // A server's definitions are its clients' too, of which some do not know the name.
   constexpr auto alone = vtkPVSession::CLIENT | vtkPVSession::SERVERS;

@@ -19,9 +19,9 @@ QPoint pixel_of(const char* name, const glm::dvec3& place);
 /// The list of doubtful places.
 QTreeWidget& places();
 QColor color_of_liver();
-/// The outline's distance at a place as the session has it; NaN where none is felt.
+/// The outline's distance at a place as the session has it; NaN if none is felt.
 double felt_mm(const glm::dvec3& place);
-/// The farthest that a line of that width lies from where the felt distance is zero, mm; NaN where there is no line.
+/// The farthest that a line of that width lies from where the felt distance is zero, mm; NaN if there is no line.
 double drawn_beside_felt(double pixels);
 /// The ball's edge in front, so many degrees to the left, on an axial slice of that height.
 glm::dvec3 on_the_edge(double degrees, double height_mm);

@@ -16,5 +16,5 @@ struct DrawnLines {
 /// Each actor of lines of that color.
 std::vector<DrawnLines> lines_drawn_in(const char* view, const QColor& color);
 
-/// The least coordinates of all surfaces of that color; 0 where there is none.
+/// The least coordinates of all surfaces of that color; 0 if there is none.
 glm::dvec3 least_of_surface_in(const char* view, const QColor& color);

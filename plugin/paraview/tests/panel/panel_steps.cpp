@@ -54,7 +54,7 @@ std::string text_beside_the_scene(const char* property) {
   return {};
 }
 
-/// The first scan of the pipeline; nullptr where there is none.
+/// The first scan of the pipeline; nullptr if there is none.
 pqPipelineSource* found_reader() {
   for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
     if (source->getProxy()->GetXMLName() == std::string("PalpateDicomReader")) return source;

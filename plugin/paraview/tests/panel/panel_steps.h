@@ -57,7 +57,7 @@ const Scenarios& volume_scenarios();
 palpate::plugin::Caster& caster_of_the_volume();
 /// The scan's reader in the pipeline; throws where there is none.
 pqPipelineSource& reader();
-/// Its number, which is another for each reader; 0 where there is none.
+/// Its number, which is another for each reader; 0 if there is none.
 unsigned reader_in_pipeline();
 /// Chooses a row of the list of series, and waits until that scan is shown.
 void choose_series(int row);
@@ -71,7 +71,7 @@ void load_state(const QString& file);
 int views_open();
 /// One reader, one scene, one tab, and four views that show the scan.
 void expect_four_views_of_one_scan();
-/// The JSON text of the scene in the pipeline; empty where there is none.
+/// The JSON text of the scene in the pipeline; empty if there is none.
 std::string scene_text();
 /// The same once it stays: no edit is on its way.
 std::string steady_scene();

@@ -93,7 +93,7 @@ int of_skin(int top, int bottom) {
   return count;
 }
 
-/// In the middle of the handle's blue that is highest; nothing where none is seen.
+/// In the middle of the handle's blue that is highest; nothing if none is seen.
 std::optional<QPoint> highest_handle() {
   const QImage picture = view("Volume").grab().toImage();
   const int edge = 10;
