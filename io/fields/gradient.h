@@ -8,7 +8,7 @@
 /// fields. Voxels outside do not count, so the end of the data is no boundary. Source: Knutsson and Westin,
 /// "Normalized and differential convolution", CVPR 1993.
 ///
-/// Central differences between neighboring voxels can be had instead; they are sharper and noisier.
+/// Central differences between neighboring voxels are the alternative; they are sharper and noisier.
 ///
 /// One kernel serves the whole volume, a brick and a single sample, with the same bits in all three: every sum is taken
 /// in the same order, in single precision, without fused operations. OpenCV's filters cannot be used for this. Their
@@ -44,7 +44,7 @@ struct Block {
   }
 };
 
-/// Reads the volume, and holds little more than weights itself. Immutable: any number of threads may use it.
+/// Reads the volume; it holds little more than weights itself. Immutable: any number of threads may use it.
 class GradientKernel {
  public:
   struct CentralDifferences {};
@@ -66,12 +66,13 @@ class GradientKernel {
   /// tick. At most 2 voxels along each axis, all of them within the volume.
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
   /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel's stored value in patient space, per mm^2; the rescale
-  /// slope is not applied. Not a number where the neighborhood is incomplete, because second derivatives there would
+  /// slope is not applied. NaN if the neighborhood is incomplete, because second derivatives there would
   /// be guesses.
   using Hessian = std::array<float, 6>;
-  /// Those of the same Gaussian at a cell's voxels; none of central differences. May be called in the tick.
+  /// Second derivatives of the same Gaussian at a cell's voxels; not for central differences. May be called in the
+  /// tick.
   void hessians_at_cell(const Block& cell, std::span<Hessian> hessians) const noexcept;
-  /// The same of any block; allocates.
+  /// The same for any block; allocates.
   void hessians_at_block(const Block& block, std::span<Hessian> hessians) const;
   /// Any block within the volume; allocates.
   void at_block(const Block& block, std::span<glm::vec3> gradients) const;
@@ -81,8 +82,8 @@ class GradientKernel {
                       const Progress& progress = {}, int threads = 0) const;
   /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
   std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
-  /// The same into the caller's memory: one for each voxel, i fastest. Memory that nobody has written to yet is best:
-  /// it is mapped in large pages, and first written by all threads.
+  /// The same into the caller's memory: one for each voxel, i fastest. Fresh memory is fastest: it is
+  /// mapped in large pages, and first written by all threads.
   void whole_into(std::span<glm::vec3> gradients, const Progress& progress = {}, int threads = 0) const;
 
  private:

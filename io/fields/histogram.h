@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a scan is made of: how often each value occurs together with each gradient magnitude. Tissues are the bright
+/// Counts how often each value of a scan occurs together with each gradient magnitude. Tissues are the bright
 /// spots at low magnitude, boundaries the arches between two of them. Source: Kindlmann and Durkin, "Semi-automatic
 /// generation of transfer functions for direct volume rendering", 1998.
 
@@ -15,7 +15,7 @@
 
 namespace palpate::io {
 
-/// Evenly wide bins over [low, high]; what lies outside counts in the first or last bin.
+/// Bins of equal width over [low, high]. Values outside count in the first or last bin.
 struct Bins {
   double low = 0;
   double high = 1;
@@ -61,7 +61,8 @@ struct CountedEdge {
   glm::vec3 gradient{0};  ///< patient space, per mm
   int low = 0, high = 0;  ///< bins
 };
-/// What gets the edges above the first least magnitude, some at a time, in no order; may be called by several threads.
+/// Receives the edges above the first least magnitude, some at a time, in no fixed order. May be called by several
+/// threads.
 using EdgeUse = std::function<void(std::span<const CountedEdge>)>;
 
 /// Counts the voxels whose gradient is steeper than the least magnitude (per mm), padding left out. Of a volume of more

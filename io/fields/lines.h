@@ -5,7 +5,7 @@
 
 namespace palpate::io::internal {
 
-/// Floats that begin at a line of the cache; not set.
+/// Uninitialized floats, aligned to a cache line.
 class Lines {
  public:
   explicit Lines(std::size_t floats) : lines_(std::make_unique_for_overwrite<Line[]>((floats + 15) / 16)) {}

@@ -256,7 +256,7 @@ class BlockSums {
     }
   }
 
-  /// Two slices as far on either side.
+  /// Two slices at the same distance on both sides.
   void add_pair(const Contribution& below, const Contribution& above, std::size_t n, Vector (&s)[in_space]) const {
     const std::size_t size = layout_.plane();
     const float* const b = plane_of(below.slice - layout_.first_slice) + n;
@@ -279,7 +279,7 @@ class BlockSums {
     }
   }
 
-  /// Moves a slice's sums from its own voxels' places to the offsets from the slice in hand, and adds them up.
+  /// Shifts a slice's sums to offsets from the current slice, and adds them.
   void add_shifted(const Contribution& c, float* out) const {
     const std::size_t size = layout_.plane();
     const float w = c.weight;

@@ -24,8 +24,8 @@ class PaddedFits {
   template <typename Stored>
   void add_plane(const RowReader<Stored>& weights, int slice);
   /// The fits of those voxels of row j of slice k that PaddingMap::beside() names, both counted from the tile's first:
-  /// rows as in straight_sums.h. To be asked for each of a tile's rows that has some, slice by slice; all planes
-  /// that slice k needs have been added.
+  /// rows as in straight_sums.h. Call it for each row of a tile that has such voxels, slice by slice, after all
+  /// planes that slice k needs were added.
   const float* of_row(int k, int j);
 
  private:

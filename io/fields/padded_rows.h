@@ -1,7 +1,7 @@
 #pragma once
 
-/// Rows of stored values, some of which may be padding, as the gradient's kernel wants them: in plain loops that the
-/// compiler turns into vectors.
+/// Converts rows of stored values, which may hold padding, for the gradient's kernel, in plain loops that the compiler
+/// vectorizes.
 
 #include <cstdint>
 
@@ -40,7 +40,7 @@ bool all_padding(const std::int16_t* stored, int count, const StoredPadding<std:
 bool all_padding(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding);
 bool all_padding(const float* stored, int count, const StoredPadding<float>& padding);
 
-/// Whether mark_padding() would write just these marks.
+/// Whether mark_padding() would write exactly these marks.
 bool has_marks(const std::int16_t* stored, int count, const StoredPadding<std::int16_t>& padding,
                const std::uint8_t* marks);
 bool has_marks(const std::uint16_t* stored, int count, const StoredPadding<std::uint16_t>& padding,

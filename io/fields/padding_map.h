@@ -1,7 +1,7 @@
 #pragma once
 
 /// Which voxels of a tile have padding in their neighborhoods, and so a plane fit of their own. Whole rows are decided
-/// once; a row that holds some is decided eight voxels at a time.
+/// at once; a row that holds padding is decided eight voxels at a time.
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +20,7 @@ using Chunks = std::uint32_t;
 inline constexpr int chunk_width = 8;  ///< voxels
 static_assert(tile_width == 32 * chunk_width);
 
-/// From the first to the last of some chunks; voxels, counted from the tile's first.
+/// The range of voxels, counted from the tile's first, from the first to the last of some chunks.
 struct Span {
   int begin = 0, end = 0;
 };
@@ -42,8 +42,7 @@ void for_each_stretch(Chunks chunks, const Use& use) {
   }
 }
 
-/// Of a tile. Where the fits at the volume's edge are not known, what lies beyond the volume counts
-/// as padding.
+/// Maps a tile. If the fits at the volume's edge are unknown, all beyond the volume counts as padding.
 class PaddingMap {
  public:
   PaddingMap(const Volume& volume, const SliceKernel& kernel, const Fits& fits, const Block& tile);
@@ -53,16 +52,16 @@ class PaddingMap {
 
   /// Whether there is padding in the tile's reach at all.
   bool met_padding() const noexcept { return met_padding_; }
-  /// Whether there are such voxels.
+  /// Whether the tile has such voxels.
   bool any() const noexcept { return any_; }
-  /// Those of row j of slice k, both counted from the tile's first, with values in their neighborhoods as well: where
-  /// there are none, no fit is needed, since all sums are 0.
+  /// The voxels of row j of slice k (both counted from the tile's first) with padding and values in their
+  /// neighborhoods. Without values no fit is needed, since all sums are 0.
   Chunks beside(int k, int j) const noexcept { return beside_[at(k, j)]; }
-  /// Those of row j of slice k with any value in their neighborhoods: of the others all sums are 0.
+  /// The voxels of row j of slice k with any value in their neighborhoods; all sums of the others are 0.
   Chunks valued(int k, int j) const noexcept { return valued_[at(k, j)]; }
-  /// The same of a slice of the volume, whose sums in its plane are meant.
+  /// The same for a slice of the volume and the sums in its plane.
   Chunks valued_in_plane(int slice, int j) const noexcept { return values_[at(slice - first_slice_, j)]; }
-  /// The same of row r of those that the tile reaches over, for its sums along the row.
+  /// The same for row r of the rows that the tile reaches over, and the sums along the row.
   Chunks valued_in_row(int slice, int r) const noexcept {
     return row_values_[static_cast<std::size_t>(slice - first_slice_) *
                            static_cast<std::size_t>(tile_.size.y + 2 * kernel_.radius.y) +

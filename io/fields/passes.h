@@ -1,11 +1,11 @@
 #pragma once
 
-/// Loops over a kernel's taps whose count the compiler knows.
+/// Loops over a kernel's taps with counts that are known at compile time.
 
 namespace palpate::io::internal {
 
-/// As many in one pass as there may be registers for their weights, so that the sums stay in registers meanwhile; the
-/// first pass starts them.
+/// The number of taps in one pass: as many as there are registers for their weights, so that the sums stay in
+/// registers. The first pass starts the sums.
 inline constexpr int most_at_once = 8;
 
 /// Calls run<Count>() with a count of most_at_once at most.

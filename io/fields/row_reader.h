@@ -1,6 +1,6 @@
 #pragma once
 
-/// A volume's rows as the gradient's kernel wants them.
+/// Reads a volume's rows for the gradient's kernel.
 
 #include <algorithm>
 #include <type_traits>
@@ -16,7 +16,7 @@ namespace palpate::io::internal {
 template <typename Stored>
 class RowReader {
  public:
-  /// has_padding: false where it is known that what is read holds none.
+  /// has_padding: false if it is known that the rows hold none.
   RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask, bool has_padding = true)
       : volume_(volume),
         voxels_(voxels.data()),
@@ -35,7 +35,7 @@ class RowReader {
     std::fill(row + last, row + count, 0.0F);
     complete_ = complete_ && last - first == count;
   }
-  /// Asks for a row that is read soon.
+  /// Prefetches a row that will be read soon.
   void prefetch(int slice, int j, int i, int count) const noexcept {
     const glm::ivec3 size = volume_.geometry.dimensions;
     if (j < 0 || j >= size.y) return;
@@ -48,7 +48,7 @@ class RowReader {
   bool met_padding() const noexcept { return met_padding_; }
 
  private:
-  static constexpr int line = 64 / sizeof(Stored);  ///< voxels that the nearest cache reads at once
+  static constexpr int line = 64 / sizeof(Stored);  ///< voxels in a cache line
 
   void copy(const Stored* stored, int count, float* row) const noexcept {
     if (!has_padding_) {

@@ -14,10 +14,10 @@ namespace palpate::io::internal {
 
 using Hessian = GradientKernel::Hessian;
 
-/// What a few hundred additions in single precision may leave of a sum that should cancel.
+/// The rounding error of a few hundred additions in single precision, for a sum that should cancel.
 inline constexpr double single_rounding = 3e-6;
 
-/// The sums of second order as a matrix.
+/// The sums of second order, as a matrix.
 template <typename SumAt>
 glm::dmat3 second_order(const SumAt& sum) noexcept {
   return {sum(4), sum(5), sum(7), sum(5), sum(6), sum(8), sum(7), sum(8), sum(9)};

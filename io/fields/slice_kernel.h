@@ -26,7 +26,7 @@ struct Tap {
 /// what is right of the middle cancels to exactly 0.
 using Taps = std::vector<Tap>;
 
-/// What slice `slice` adds to the one it contributes to.
+/// The contribution of slice `slice` to another slice.
 struct Contribution {
   int slice = 0;
   float weight = 0;

@@ -9,7 +9,7 @@
 
 namespace palpate::io::internal {
 
-/// Where a block's gradients go: its first voxel's, and how many gradients apart rows and slices lie.
+/// Where a block's gradients are written: the first voxel's, and the strides of rows and slices, in gradients.
 struct GradientTarget {
   glm::vec3* first = nullptr;
   std::ptrdiff_t row = 0;
@@ -17,7 +17,7 @@ struct GradientTarget {
 };
 
 /// The gradients of a block of a scan with straight slices, slice by slice; voxels beside padding by fits of their own.
-/// Allocates a few hundred KiB, and some MiB where there is padding. Instantiated for what volumes store.
+/// Allocates a few hundred KiB, and some MiB where there is padding. Instantiated for the types that volumes store.
 template <typename Stored>
 void straight_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel,
                     const Fits& fits, const Block& block, const GradientTarget& target);

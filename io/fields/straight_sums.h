@@ -43,14 +43,14 @@ struct SlicePair {
 void fit_any_slices(const SlicePair* pairs, int pair_count, std::ptrdiff_t row, const float* fits, int width,
                     float* sums, glm::vec3* gradients);
 
-/// How many slices are summed at once: what they share is then in the nearest cache.
+/// The number of slices that are summed at once, so that shared data stays in the nearest cache.
 inline constexpr int slices_at_once = 4;
 /// Pairs of even slices at most.
 inline constexpr int most_even_pairs = 8;
 /// A slice with pairs of slices around it at even distances.
 struct EvenSlices {
   const float* const* slices = nullptr;  ///< rows one, p, q: at 0 of the slice, around it of its neighbors
-  std::ptrdiff_t row = 0;                ///< floats from there to the row in hand
+  std::ptrdiff_t row = 0;                ///< floats from there to the current row
   float middle = 0;                      ///< weight, and that times its offset
   float middle_w = 0;
   const TapPair* pairs = nullptr;

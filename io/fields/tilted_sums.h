@@ -14,10 +14,10 @@ namespace palpate::io::internal {
 void sum_tilted_row(const float* in, const Taps& taps, int width, float* sums);
 
 /// Three sums in a plane (rows one, p, q) from rows of sums that lie 2 * tile_width floats apart; `rows` points at
-/// that of the row in hand.
+/// the sums of the current row.
 void sum_tilted_column(const float* rows, const Taps& taps, int width, float* sums);
 
-/// Moves a slice's sums in its plane to their offsets from the slice in hand, and adds them to rows one, p, q, w.
+/// Shifts a slice's sums in its plane to offsets from the current slice, and adds them to rows one, p, q, w.
 void add_tilted(const float* plane, const Contribution& slice, int width, float* sums);
 
 /// Gradients of the voxels from `begin` to `end` of a row from such sums, each by its own fit: rows as in

@@ -35,12 +35,12 @@ FieldSet fields_of(const Volume& volume) noexcept;
 /// the point last sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell
 /// with the same kernel: it takes longer and gives the same bits.
 ///
-/// Outside: beyond the hull of the voxel centers, between slices where some are missing, and wherever a voxel that the
-/// interpolation needs is padding.
+/// A point is outside beyond the hull of the voxel centers, between slices if some are missing there, and if a voxel
+/// that the interpolation needs is padding.
 class VolumeFields : public FieldSource {
  public:
-  /// Prepares what the wanted fields need and no more. `scale_mm` is the Gaussian's; without a Gaussian it is not read.
-  /// Throws std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
+  /// Prepares only what the wanted fields need. `scale_mm` is the Gaussian's; without a Gaussian it is not read. Throws
+  /// std::invalid_argument for a null volume, for fields that the scan does not have, and for a scale out of range.
   VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                const FieldOptions& options = {});
   ~VolumeFields() override;
@@ -50,7 +50,7 @@ class VolumeFields : public FieldSource {
   Sample sample(const Vec3& position_mm, FieldSet wanted) const noexcept override;
 
   /// Fills the bricks within a distance (mm, along each axis of the grid) of a point before it returns, as far as
-  /// memory goes.
+  /// memory allows.
   void prepare(const Vec3& position_mm, double distance_mm) const;
 
   /// Largest memory beyond the volume's own, bytes.
@@ -63,7 +63,7 @@ class VolumeFields : public FieldSource {
   ValueMethod value_;
   Vec3 b_spline_part_;
   std::unique_ptr<const GradientKernel> kernel_;          ///< of gradients
-  std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< of tubes, where it is another
+  std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< for tubes, if it is another one
   std::unique_ptr<internal::BrickCache> bricks_;
   std::unique_ptr<internal::BrickCache> tube_bricks_;
 

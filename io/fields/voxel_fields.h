@@ -1,7 +1,7 @@
 #pragma once
 
-/// The fields of a scan at its voxels themselves, one at a time, for whoever needs few of them: with the same bits as
-/// VolumeFields gives at a voxel's center.
+/// The fields of a scan at single voxels, for code that needs few of them. The bits are those of VolumeFields at a
+/// voxel's center.
 
 #include <glm/vec3.hpp>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace palpate::io {
 
-/// Immutable: any number of threads may use it. The volume has to outlive it.
+/// Immutable: any number of threads may use it. The volume must outlive it.
 class VoxelFields {
  public:
   /// `scale_mm`: sigma of the gradients' Gaussian.
@@ -20,7 +20,7 @@ class VoxelFields {
 
   /// The value in `Volume::unit`; none if nothing can be sampled: in padding, and where it is no number.
   std::optional<double> value(const glm::ivec3& voxel) const noexcept;
-  /// Of a voxel that has a value, given its gradient: patient axes, per mm.
+  /// The low and high of a voxel that has a value, given its gradient (patient axes, per mm).
   LowHigh low_high(const glm::ivec3& voxel, const glm::vec3& gradient) const noexcept {
     return low_high_at(volume_, voxel, Vec3(gradient), scale_mm_);
   }

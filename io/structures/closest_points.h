@@ -1,7 +1,7 @@
 #pragma once
 
-/// From a field whose zero is the surface to the distance from it: each node's closest point on the surface. The field
-/// itself is no distance where a structure is thin or hollow; its closest points are.
+/// Computes the distance from a surface that is the zero of a field: the closest point on the surface for each node.
+/// Where a structure is thin or hollow the field itself is not a distance.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -12,7 +12,7 @@ namespace palpate::io {
 
 using Vec3f = glm::vec3;
 
-/// Where no closest point is known.
+/// Stands for an unknown closest point.
 inline constexpr float nowhere = 1e9F;
 
 /// Of every node of every brick: the closest point of the surface f = 0 (as f is interpolated, cubic.h), mm along the
@@ -21,11 +21,11 @@ inline constexpr float nowhere = 1e9F;
 /// (Danielsson, "Euclidean distance mapping", 1980). The same to the last bit on any number of threads.
 std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads);
 
-/// Its two parts. The first writes the closest points of one brick's nodes, nowhere where the surface is more than two
-/// nodes away: on the edges to the neighbors on the other side, and by Newton's steps.
+/// The two parts of closest_points(). The first writes the closest points of one brick's nodes, from the edges that
+/// cross the surface and by Newton's steps; `nowhere` if the surface is more than two nodes away.
 void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest);
-/// The second takes the neighbors' points over where they are closer. `unsettled`: the bricks in which a node may be
-/// farther from its own point than from a neighbor's; without any of them it is all.
+/// The second replaces a node's point by a neighbor's if that is closer. `unsettled`: the bricks in which this may
+/// happen; empty: all bricks.
 void spread_closest_points(const NodeBricks& bricks, double band_mm, int threads, std::vector<Vec3f>& closest,
                            std::vector<char> unsettled = {});
 

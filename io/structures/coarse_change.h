@@ -16,13 +16,13 @@ struct CoarseChange {
   const NodeLattice& lattice;  ///< of the points, mm along its axes from its origin
   std::span<const Stretch> where;
   double within_mm = 0;
-  std::vector<Vec3f> lost{};                                     ///< points of the surface that may be no more
-  std::vector<Vec3f> surface{};                                  ///< points of the surface as it is
-  std::function<double(const Vec3& at, double before)> after{};  ///< its sign is the new one
+  std::vector<Vec3f> lost{};                                     ///< points of the old surface that may have gone
+  std::vector<Vec3f> surface{};                                  ///< points of the new surface
+  std::function<double(const Vec3& at, double before)> after{};  ///< a number with the new sign
 };
 
-/// Distances are true within 20 mm of the change, and go over to those before within 12 mm more. `parts` has the new
-/// bricks already, and the lattice of before.
+/// Distances are true within 20 mm of the change. Over 12 mm more they blend into the old distances. `parts` already
+/// has the new bricks, and still the old lattice.
 void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts);
 
 }  // namespace palpate::io::internal

@@ -19,11 +19,11 @@ struct CoarseLattice {
   }
 };
 
-/// Over a box, with as many nodes as make its interpolation good and its memory small.
+/// Covers a box, with a spacing that balances interpolation error and memory.
 CoarseLattice coarse_lattice(const Vec3& low_mm, const Vec3& high_mm);
 
-/// Of each node the closest of some points (patient space, mm), from neighbor to neighbor; nowhere where there are
-/// none.
+/// For each node the closest of some points (patient space, mm), passed from neighbor to neighbor. `nowhere` if there
+/// are no points.
 std::vector<Vec3f> closest_of(const CoarseLattice& coarse, const std::vector<Vec3f>& points);
 
 /// Signed distances, mm, of its nodes, from the closest points of the bricks' nodes and from neighbor to neighbor

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Takes bounds and numbers to the lattice of every second node, and numbers back.
+/// Restricts bounds and numbers to the lattice of every second node, and interpolates numbers back.
 
 #include <vector>
 

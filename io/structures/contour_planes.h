@@ -1,6 +1,7 @@
 #pragma once
 
-/// Closed contours as planes of distances: of every node the distance to the edge of what they fill (contour_region.h).
+/// Turns closed contours into planes of distances: for every node the distance to the edge of the region that the
+/// contours fill (contour_region.h).
 
 #include "io/structures/distance_field.h"
 #include "io/structures/outline_planes.h"
@@ -11,37 +12,38 @@ namespace palpate::io {
 /// Points in patient space, mm; the last is joined to the first.
 using Contour = std::vector<Vec3>;
 
-/// What a file says of the contours of one structure.
+/// How a file describes the contours of one structure.
 struct ContourRule {
-  bool is_exclusive = false;  ///< CLOSEDPLANAR_XOR: what two contours hold is outside
+  bool is_exclusive = false;  ///< CLOSEDPLANAR_XOR: a region inside two contours is outside
   double thickness_mm = 0;    ///< of a plane alone; 0 if nobody says it
 };
 
 /// The contours of one structure, plane by plane.
 struct ContourStack {
   glm::dmat3 axes{1};  ///< columns: two along the planes and their normal
-  double step_mm = 1;  ///< between planes: what is typical
+  double step_mm = 1;  ///< typical distance between planes
   struct Plane {
     double height = 0;                              ///< along the normal, mm
-    std::vector<std::vector<glm::dvec2>> polygons;  ///< the edges of what is inside: they do not cross; even-odd
+    std::vector<std::vector<glm::dvec2>> polygons;  ///< the edges of the inside; they do not cross; even-odd
   };
   std::vector<Plane> planes;   ///< ascending
-  std::vector<Text> warnings;  ///< contours that overlap or are there twice, and planes that lie unevenly
+  std::vector<Text> warnings;  ///< overlapping or repeated contours, and planes at uneven distances
 };
 
-/// Contours whose heights differ by 0.01 mm at most lie in one plane, or by as much as points of a contour differ from
-/// its plane (up to 0.1 mm). Throws DicomError if the contours are not planar or not parallel, or have no area. A
-/// plane that is missing between two others is not taken for an empty one: the surface goes on through it.
+/// Contours lie in one plane if their heights differ by at most 0.01 mm, or by at most the deviation of contour points
+/// from their plane (up to 0.1 mm). Throws DicomError if the contours are not planar or not parallel, or have no area.
+/// A plane that is missing between two others is not taken for an empty one: the surface goes on through it.
 ContourStack stack_of(const std::vector<Contour>& contours, const ContourRule& rule = {});
 
-/// Whether two neighboring planes that far apart (mm) hold one body. If not, both end between them.
+/// Whether the surface continues between two neighboring planes at this distance (mm). If not, both parts end between
+/// them.
 bool is_one_body(const ContourStack& stack, double apart_mm);
 
-/// Each plane's polygons reach half of the way to its neighbors, and half a step where there is none. The volume is
-/// that of these slabs; the centroid that of this volume.
+/// Each plane's polygons are slabs that extend half the way to the neighboring planes, or half a step if there is none.
+/// Volume and centroid are those of the slabs.
 StructureMeasures measures_of(const std::vector<Contour>& contours, const ContourRule& rule = {});
 
-/// The stack has to live as long as the planes.
+/// The stack must outlive the planes.
 OutlinePlanes planes_of(const ContourStack& stack, const DistanceOptions& options);
 
 }  // namespace palpate::io

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the contours of one plane fill together.
+/// The region that the contours of one plane fill together.
 
 #include <glm/vec2.hpp>
 #include <vector>
@@ -14,7 +14,7 @@ struct ContourRegion {
   /// They do not cross; those around the region run counterclockwise, those around holes clockwise.
   std::vector<ContourPolygon> edges;
   int doubled = 0;          ///< contours left out because another one is the same
-  bool is_overlap = false;  ///< whether a contour holds a part of another one alone
+  bool is_overlap = false;  ///< whether two contours overlap partly
 };
 
 /// A contour that crosses itself, or leads to a hole and back along the same way ("keyhole"), fills by even-odd. One
@@ -23,7 +23,7 @@ struct ContourRegion {
 /// `is_exclusive`, all contours fill by even-odd. Throws DicomError if they span more than can be felt.
 ContourRegion region_of(const std::vector<ContourPolygon>& contours, bool is_exclusive);
 
-/// mm^2; holes count as less than nothing. `moment`: the centroid times that.
+/// The area, mm^2; holes count as negative. `moment`: the centroid times the area.
 double area_of(const std::vector<ContourPolygon>& edges, glm::dvec2& moment);
 
 }  // namespace palpate::io

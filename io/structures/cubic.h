@@ -8,7 +8,7 @@
 
 namespace palpate::io {
 
-/// Of one axis where Number is a double; of several side by side where it is a vector of them.
+/// The weights of one axis if Number is a double, or of several axes if it is a vector.
 template <typename Number>
 struct CubicWeightsOf {
   Number value[4];  ///< of the nodes at -1, 0, 1 and 2
@@ -34,7 +34,7 @@ struct CubicSample {
 CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
                                double z) noexcept;
 
-/// The same to the last bit, for processors with AVX2. There is none for others.
+/// The same to the last bit, for processors with AVX2. Null on other processors.
 #ifdef __x86_64__
 CubicSample wide_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
                               double z) noexcept;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The signed distance from a structure's surface, at any point of the patient: what a scene's modes read of it.
+/// The signed distance from a structure's surface at any point of the patient, for the modes of a scene.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +19,11 @@ struct DistanceOptions {
   /// How far from the surface the distance is kept at full detail, mm: a margin, or the last node of a gate. Farther
   /// away it is interpolated on a coarse lattice.
   double reach_mm = 3;
-  /// The scan that it is felt with. Distances are kept for all of it, and a structure is assumed to go on beyond its
-  /// ends. Null: they are kept for the structure's box and some way around. Read only while the field is made.
+  /// The scan with which the structure is felt. Distances are kept for all of the scan, and the structure is assumed to
+  /// continue beyond its ends. Null: distances are kept for the structure's box and its surroundings. Read only while
+  /// the field is made.
   const Geometry* scan = nullptr;
-  /// Where the structure lies: from its own frame of reference to the scan's.
+  /// The motion from the structure's frame of reference to the scan's.
   RigidMotion motion;
   int threads = 0;  ///< 0: all cores
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a distance field is made of. A field and those that were edited from it share all bricks that are the same.
+/// The parts of a distance field. A field and the fields that edits made of it share all unchanged bricks.
 
 #include <glm/mat3x3.hpp>
 #include <memory>
@@ -38,10 +38,10 @@ struct DistanceParts {
     float at(int i, int j, int k) const noexcept;
   } far;
 
-  /// Whether a brick has the point: then its distance there.
+  /// The distance at the point, if a brick holds the point.
   bool sample_near(const Vec3& position_mm, Distance& distance) const noexcept;
   Distance sample_far(const Vec3& position_mm) const noexcept;
-  /// From a brick where there is one, else from the coarse lattice: not once differentiable between the two.
+  /// From a brick if there is one, else from the coarse lattice. Not differentiable where the two meet.
   Distance sample_nearest(const Vec3& position_mm) const noexcept;
   /// How near to the surface a brick's nearest node has to be for the brick to be kept, mm.
   double kept_within_mm() const noexcept;

@@ -26,21 +26,21 @@ struct EdgeWay {
   double mm = 0;          ///< along the inward normal
   bool stays = true;      ///< the outline stays there exactly
   bool has_edge = false;  ///< in the scan
-  double edge_mm = 0;     ///< where that lies, along the inward normal
+  double edge_mm = 0;     ///< place of the scan's edge, along the inward normal
   double known_to_mm = 0;
 
-  /// It does not go all the way to the scan's edge: as the places around say otherwise, the radius is near, or a part
-  /// would appear or go.
+  /// Whether the way ends before the scan's edge: because of the neighboring places or the radius, or because a part
+  /// would appear or vanish.
   bool is_held_back() const { return has_edge && std::abs(edge_mm - mm) > std::max(known_to_mm, 0.5); }
 };
 
 class EdgeWays {
  public:
-  /// Asks the scan at all places within the edit's radius. Throws InvalidInput if the outline is not within it.
+  /// Finds the scan's edge at all places within the edit's radius. Throws InvalidInput if the outline is not within it.
   EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const ScanValues& scan, int threads);
 
-  /// Halves the ways of the places near such points, or ends them after some rounds or where `end` says so. False if
-  /// none of them had a way.
+  /// Halves the ways of the places near these points, or sets them to 0 after some rounds or if `end`. False if none of
+  /// the places had a way.
   bool hold_back(const std::vector<Vec3>& points, const DistanceField& before, bool end);
 
   /// The way at a point, from its distance and the gradient there: smooth, and 0 at the radius and beyond.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a user changes of a structure's outline, as plain values. A correction is an ordered list of edits. It never
+/// The edits of a structure's outline, as plain values. A correction is an ordered list of edits. It never
 /// changes a file. All places are in patient space (LPS), mm.
 
 #include <cstddef>
@@ -37,13 +37,13 @@ struct RemoveEdit {
   bool operator==(const RemoveEdit&) const = default;
 };
 
-/// Within a ball the edge moves along its normal to the scan's own edge, if that is known better than by the way there,
-/// and stays where the scan has none. The ways of neighboring places are made smooth: one that is unlike those around
-/// it takes their way, or stays, and one that would make a part appear or go is shortened.
+/// Within a ball the edge moves along its normal to the scan's edge, if that edge's uncertainty is smaller than the way
+/// there. It stays where the scan has no edge. The ways of neighboring places are smoothed: a place that differs from
+/// its neighbors moves as they do, or stays, and a way that would make a part appear or vanish is shortened.
 struct ScanEdgeEdit {
   Vec3 center_mm{0};
   double radius_mm = 10;
-  double most_mm = 3;  ///< it moves no farther
+  double most_mm = 3;  ///< the largest way
   bool operator==(const ScanEdgeEdit&) const = default;
 };
 
@@ -58,7 +58,7 @@ using Edit = std::variant<TraceEdit, AddEdit, RemoveEdit, ScanEdgeEdit, Contours
 /// "trace", "add", "remove", "scan_edge", "contours".
 const char* name_of(const Edit& edit) noexcept;
 
-/// What an edit may hold.
+/// Limits of an edit.
 namespace edit_limits {
 inline constexpr std::size_t most_edits = 10'000;
 inline constexpr std::size_t most_points = 100'000;     ///< of one edit

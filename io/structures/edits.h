@@ -1,19 +1,18 @@
 #pragma once
 
-/// Applies edits to a structure's distance field. The result is a new field: the one before stays as it was, so that
-/// to undo an edit is to take the field before it. Both share all bricks that are the same.
+/// Applies edits to a structure's distance field. The result is a new field; the old one is unchanged, so an edit is
+/// undone by using the old field again. Both share all unchanged bricks.
 ///
 /// A trace adds radial functions to the distance phi: phi' = phi + sum c_i w(|x - p_i| / R), w = (1-r)^4 (4r+1), with
 /// (W + diag(mu s_i^2)) c = -phi(p_i). (H. Wendland, "Piecewise polynomial, positive definite and compactly supported
 /// radial functions of minimal degree", Adv. Comput. Math. 4, 1995: once and twice differentiable, positive definite.)
 /// add and remove join and cut with a polynomial smooth maximum, which is once differentiable and exact elsewhere.
 /// After each edit phi' is made a distance again. Laws, which edits_laws_test.cpp checks:
-///  - a trace goes through its points (those kept by the thinning) within 0.05 mm if they are exact;
+///  - a trace passes within 0.05 mm of its points (after thinning) if they are exact;
 ///  - the distance keeps its bits wherever the nearest edge, before and after, lies beyond the reach;
 ///  - a trace of the edge as it is changes less than 0.01 mm; edits that are far apart commute;
-///  - scan_edge keeps all parts and closed cavities, and moves no farther than asked (edit_scan_edge_laws_test.cpp).
-///  That
-///    a tunnel through a part stays is not checked.
+///  - scan_edge keeps all parts and closed cavities, and moves no farther than asked (edit_scan_edge_laws_test.cpp). It
+///    does not check that a tunnel through a part stays.
 
 #include <memory>
 #include <span>
@@ -26,9 +25,9 @@
 namespace palpate::io {
 
 struct EditOptions {
-  /// For scan_edge: the scan's raw values. Null: such an edit is refused.
+  /// The scan's raw values, for scan_edge. Null: scan_edge is refused.
   const ScanValues* scan = nullptr;
-  /// For contours: how the field of the new structure is made.
+  /// How the field of a new structure is made, for contours.
   DistanceOptions distance{};
   int threads = 0;  ///< 0: all cores; the result is the same on any number
 };
@@ -36,10 +35,10 @@ struct EditOptions {
 /// What an edit did, to be shown to the user.
 struct EditOutcome {
   double largest_mm = 0;         ///< how far the edge moved, as a bound: the largest change of a traced or moved point
-  std::size_t points = 0;        ///< that the edge was put through; of scan_edge: places that were looked at
-  std::size_t without_edge = 0;  ///< of scan_edge: places at which the scan has no edge; the outline stays there
-  std::size_t held_back = 0;  ///< likewise: with an edge that the outline does not reach, by more than 0.5 mm and its
-                              ///< +-, as places around say otherwise, the radius is near, or a part would appear or go
+  std::size_t points = 0;        ///< points that the edge passes through; for scan_edge: examined places
+  std::size_t without_edge = 0;  ///< for scan_edge: places without an edge in the scan, where the outline stays
+  std::size_t held_back = 0;  ///< for scan_edge: places whose outline ends more than 0.5 mm and the +- before the edge,
+                              ///< because of neighboring places or the radius, or because a part would appear or vanish
 };
 
 struct Edited {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How one edit changes a distance field, and the field that comes of it.
+/// The change of a distance field by one edit, and the new field.
 
 #include <cstdint>
 #include <functional>
@@ -19,7 +19,7 @@ struct Stretch {
   Vec3 from{0}, to{0};
 };
 double distance_to(const Stretch& stretch, const Vec3& place) noexcept;
-/// Whether a place is nearer to it than so many mm.
+/// Whether a place is nearer than so many mm to the stretch.
 inline bool lies_within(const Stretch& stretch, const Vec3& place, double mm) noexcept {
   if (stretch.from != stretch.to) return distance_to(stretch, place) < mm;
   const Vec3 way = place - stretch.from;
@@ -28,13 +28,13 @@ inline bool lies_within(const Stretch& stretch, const Vec3& place, double mm) no
 
 struct FieldChange {
   std::vector<Stretch> where;
-  double touched_mm = 0;  ///< the surface before and after is the same farther than this from all stretches
-  double within_mm = 0;   ///< where `after` is asked, >= touched_mm
-  /// The number whose zero is the new surface: `before` farther than within_mm from all stretches. `near`: those that
-  /// may lie nearer.
+  double touched_mm = 0;  ///< farther than this from all stretches the surface does not change
+  double within_mm = 0;   ///< `after` is called within this distance of a stretch; >= touched_mm
+  /// A number whose zero is the new surface. It equals `before` farther than within_mm from all stretches. `near`: the
+  /// stretches that may be nearer.
   std::function<double(const Vec3& at, double before, std::span<const std::uint32_t> near)> after;
-  /// Where `after` adds to `before`, what it adds may be given as bumps: one for each stretch, in their order. They are
-  /// asked instead at the nodes of bricks.
+  /// If `after` is `before` plus a sum of bumps, one for each stretch in their order, the bumps may be given here. They
+  /// are then evaluated at the nodes of bricks instead of `after`.
   std::shared_ptr<const RadialBumps> bumps;
 };
 

@@ -13,7 +13,7 @@
 
 namespace palpate::io::internal {
 
-/// Where a brick's node stands in what the field stores of it.
+/// The index of a brick's node in the numbers that the field stores of the brick.
 inline std::size_t stored_at(int i, int j, int k) {
   return static_cast<std::size_t>(((k + 1) * DistanceParts::wide + j + 1) * DistanceParts::wide + i + 1);
 }
@@ -28,7 +28,7 @@ struct Patch {
   std::vector<float> f{};                          ///< of the nodes of `bricks`
   std::vector<float> before_mm{};                  ///< likewise: the distance as it was
   std::vector<Vec3f> closest{}, kept{};            ///< on the new surface; on the old one where it is still there
-  std::vector<Vec3f> lost{};                       ///< points of the old surface that may be no more
+  std::vector<Vec3f> lost{};                       ///< points of the old surface that may have gone
   std::vector<float> mm{};                         ///< likewise: the distance as it is now
 
   std::size_t box_at(const glm::ivec3& place) const {
@@ -64,7 +64,7 @@ struct Patch {
 Patch patch_around(const DistanceParts& old, const FieldChange& change, double around_mm);
 
 /// Evaluates the bricks within the change, and lists those that are measured anew: all within `around_mm` of one that
-/// the surface passes, before or after, and by so far of where it moves. Returns false where it passes none.
+/// the surface passes, before or after, and by so far of where it moves. Returns false if it passes none.
 bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char>& passed);
 
 /// Measures the distance in these bricks.

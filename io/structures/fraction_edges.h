@@ -9,7 +9,7 @@ namespace palpate::io {
 /// voxels beyond the lattice count as those at its edge.
 float edge_distance(const Mask& mask, int i, int j, int k);
 
-/// The same of one box of `size` mm that a plane with this normal (inward, of any length) cuts so that `share` of the
+/// The same for one box of `size` mm that a plane with this normal (inward, of any length) cuts so that `share` of the
 /// box is inside. Source: the volumes below a plane of Scardovelli and Zaleski, "Analytical relations connecting linear
 /// interfaces and volume fractions in rectangular grids", J. Comput. Phys. 164 (2000).
 double plane_distance(const Vec3& size, const Vec3& normal, double share);

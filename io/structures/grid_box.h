@@ -12,7 +12,7 @@ struct IndexBox {
   glm::ivec3 low{0}, high{-1};
 };
 
-/// The scan's voxels in a box, and one more around; all of them where there is no box.
+/// The scan's voxels in a box, and one more on each side. All voxels if there is no box.
 IndexBox index_box(const Geometry& scan, const std::optional<StructureBox>& within);
 
 }  // namespace palpate::io

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A structure on its way out: its name and codes, the scan's voxels that are inside it, its contours on the scan's
-/// slices, and the files that hold them.
+/// A structure that is to be written: its name and codes, the scan's voxels that are inside it, its contours on the
+/// scan's slices, and the files that hold them.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,16 +28,16 @@ struct Code {
   bool operator==(const Code&) const = default;
 };
 
-/// What a structure is called and what it was made of. All texts are UTF-8.
+/// Name, codes and origin of a structure. All texts are UTF-8.
 struct StructureLabel {
   std::string name;
   std::string color;                      ///< "#rrggbb", or empty
-  Code category, type;                    ///< SegmentedPropertyCategory and -Type; without a value where nobody says it
+  Code category, type;                    ///< SegmentedPropertyCategory and -Type; without a value if unknown
   std::vector<Code> modifiers;            ///< of the type: "Right", ...
   std::string tracking_id, tracking_uid;  ///< the lesion's or organ's, through all of its outlines; or empty
   std::string interpreted_type;           ///< RTROIInterpretedType: "ORGAN", "PTV", ...; or empty
 
-  /// The file and the object in it that was corrected; without an instance where it is no DICOM.
+  /// The file and the object in it that was corrected; without an instance if it is not DICOM.
   struct Origin {
     std::filesystem::path file;
     std::string sop_class, instance, series_uid, study_uid;
@@ -64,8 +64,8 @@ struct LabelImage {
   }
 };
 
-/// The voxels of the scan whose centers have a distance above 0. All that lies outside the box `within` counts as
-/// outside, and is not asked for. Throws Cancelled.
+/// The voxels of the scan whose centers have a distance above 0. All voxels outside the box `within` count as
+/// outside; `distance` is not called there. Throws Cancelled.
 LabelImage sample_labels(StructureLabel label, const Geometry& scan, const SignedDistance& distance,
                          const std::optional<StructureBox>& within = {}, const Progress& progress = {});
 
@@ -81,7 +81,7 @@ struct SliceContours {
 };
 
 /// Contours where the distance is 0, from a lattice in each slice that is twice as fine as its voxels. A hole is
-/// joined to the contour around it by a way there and back ("keyhole"). The structure ends at the scan's outermost
+/// joined to the contour around it by a line there and back ("keyhole"). The structure ends at the scan's outermost
 /// voxels' edges. Throws as sample_labels().
 SliceContours trace_slices(StructureLabel label, const Geometry& scan, const SignedDistance& distance,
                            const std::optional<StructureBox>& within = {}, const Progress& progress = {});
@@ -96,8 +96,8 @@ struct WriteOptions {
 /// one. It goes into the study of the scan, as a series of its own, and refers to the images of these slices and to
 /// what was corrected.
 ///
-/// This and all other writers write whole files or nothing. They throw DicomError where the structure is empty, the
-/// file exists or cannot be written, or a file cannot hold what is asked for.
+/// This and all other writers write whole files or nothing. They throw DicomError if the structure is empty, the
+/// file exists or cannot be written, or the format cannot hold the structure.
 void write_segmentation(const LabelImage& image, const Series& scan, const std::filesystem::path& file,
                         const WriteOptions& options);
 
@@ -109,11 +109,11 @@ void write_contours(const SliceContours& contours, const Series& scan, const std
 /// a scan with uneven slices is refused.
 void write_label_map(const LabelImage& image, const std::filesystem::path& file, const WriteOptions& options);
 
-/// What the name of a file asks for.
+/// The kind of object that a file's name asks for.
 enum class StructureForm : std::uint8_t { segmentation, contours, label_map };
 
 /// By its ending: ".dcm" is a segmentation, or contours if `rtstruct`. Throws DicomError for any other ending than
-/// those above, and where `rtstruct` does not fit.
+/// those above, and if `rtstruct` does not fit.
 StructureForm form_of(const std::filesystem::path& file, bool rtstruct);
 
 /// Samples or traces the structure and writes it in that form. `scan`: the series, and the geometry of the frame that

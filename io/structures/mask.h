@@ -21,11 +21,11 @@ struct Mask {
   glm::ivec3 low{0};                    ///< first voxel of the box
   glm::ivec3 size{0};                   ///< voxels of the box
   std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: how much of a voxel is inside, 0 to full
-  /// What values of `occupancy` between 0 and full mean. They give the place of the edge within a voxel.
+  /// The meaning of values of `occupancy` between 0 and full. They give the place of the edge within a voxel.
   enum class Fractions : std::uint8_t {
     none,
-    probability,  ///< how likely it is inside: the edge is where half is reached between voxels
-    occupancy     ///< how much of the voxel is inside
+    probability,  ///< probability of being inside: the edge is where one half is reached between voxels
+    occupancy     ///< part of the voxel that is inside
   } fractions = Fractions::none;
 
   std::size_t offset(int i, int j, int k) const noexcept {

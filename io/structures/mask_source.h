@@ -15,7 +15,7 @@ class MaskSource : public StructureSource {
   std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const override;
 
  private:
-  /// The mask of a structure where its file has it; empty if no voxel is inside.
+  /// The mask of a structure on its file's grid. Empty if no voxel is inside.
   virtual Mask mask_of(int number) const = 0;
   Mask moved_mask(int number, const RigidMotion& motion) const;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of structures: segmentations, contours, label maps.
+/// Messages about structures: segmentations, contours, label maps.
 
 #include "solver/text/message.h"
 

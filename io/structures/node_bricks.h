@@ -30,12 +30,12 @@ struct NodeLattice {
   }
 };
 
-/// Which bricks there are.
+/// The bricks that exist.
 struct NodeBricks {
   static constexpr int edge = 8;  ///< nodes along each axis of a brick
   static constexpr std::size_t nodes = 512;
-  static constexpr std::int32_t outside = -1;  ///< in `slot`: no brick, for all of it lies outside
-  static constexpr std::int32_t inside = -2;   ///< likewise, inside
+  static constexpr std::int32_t outside = -1;  ///< in `slot`: no brick, since all of its nodes lie outside
+  static constexpr std::int32_t inside = -2;   ///< in `slot`: no brick, since all of its nodes lie inside
 
   NodeLattice lattice;
   std::vector<std::int32_t> slot;  ///< by brick, i fastest
@@ -62,7 +62,8 @@ inline constexpr int brick_edge = NodeBricks::edge;                        ///< 
 inline constexpr std::size_t brick_nodes = NodeBricks::nodes;              ///< in all
 inline constexpr float no_node = std::numeric_limits<float>::quiet_NaN();  ///< a number that no brick holds
 
-/// Copies `count` numbers, or writes `missing` where `from` is null. A call would cost more than so short a copy.
+/// Copies `count` numbers, or writes `missing` where `from` is null. Inline, since a call would cost more than such a
+/// short copy.
 template <int count, typename Number>
 inline void put_row(const Number* from, const Number& missing, Number* into) noexcept {
   if (from == nullptr) {
@@ -73,7 +74,7 @@ inline void put_row(const Number* from, const Number& missing, Number* into) noe
 }
 
 /// A brick's numbers with those of its neighbors up to `margin` nodes around it: (8 + 2 margin)^3, i fastest. `missing`
-/// stands where there is no brick.
+/// is used where there is no brick.
 template <int margin, typename Number>
 void gather(const NodeBricks& bricks, std::span<const Number> numbers, std::size_t slot, const Number& missing,
             Number* into) noexcept {

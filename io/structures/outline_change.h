@@ -1,6 +1,6 @@
 #pragma once
 
-/// How much edits have changed an outline, to be told to the user.
+/// The size of the change that edits made to an outline, to be shown to the user.
 
 #include <optional>
 #include <span>

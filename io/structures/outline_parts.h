@@ -18,7 +18,7 @@ struct OutlinePart {
   double depth_mm = 0;
 };
 
-/// Which parts there are: by volume, the largest first. Nodes are joined along the lattice's axes. `of_place`, if asked
+/// All parts, by volume, the largest first. Nodes are joined along the lattice's axes. `of_place`, if asked
 /// for, tells for each of `places` the part whose surface it lies on; a hole's surface is its own, not the structure's
 /// around it.
 std::vector<OutlinePart> outline_parts(const DistanceField& field, const std::vector<OutlinePlace>& places = {},

@@ -14,7 +14,7 @@
 
 namespace palpate::io {
 
-/// The squared distances of one plane, mm^2, row by row and measured in the plane; `far` if there is nothing within the
+/// The squared distances of one plane, mm^2, row by row and measured in the plane; `far` if there is none within the
 /// band.
 struct PlaneDistances {
   static constexpr float far = 1e12F;
@@ -22,7 +22,7 @@ struct PlaneDistances {
   std::vector<float> to_inside;
   std::vector<float> to_outside;
   /// The distance of a node from the edge where the outline itself gives it (fractions): mm, positive inside; NaN
-  /// elsewhere. Empty if it never does.
+  /// elsewhere. Empty if the outline never gives it.
   std::vector<float> known;
 };
 
@@ -44,7 +44,7 @@ inline double blend_mm(const NodeLattice& lattice) {
   return std::max(2.0, 2.0 * glm::length(lattice.spacing));
 }
 
-/// The band that a field of this reach needs.
+/// The width of the band that a field with this reach needs.
 inline double band_for(double reach_mm, const NodeLattice& lattice, double play_mm) {
   const double cell_mm = glm::length(lattice.spacing);
   return std::max(reach_mm + blend_mm(lattice), play_mm) + 1.5 * cell_mm;

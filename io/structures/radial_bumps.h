@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a trace adds to a field: sum c_i w(|x - p_i| / R), w = (1-r)^4 (4r+1) (Wendland; edits.h).
+/// The sum that a trace adds to a field: sum c_i w(|x - p_i| / R), w = (1-r)^4 (4r+1) (Wendland; edits.h).
 
 #include <cstdint>
 #include <span>
@@ -19,10 +19,10 @@ struct RadialBumps {
 /// w; 0 from r = 1 on.
 double wendland(double r) noexcept;
 
-/// Their sum at a place; `which` of them.
+/// The sum of the bumps `which` at a place.
 double sum_of(const RadialBumps& bumps, std::span<const std::uint32_t> which, const Vec3& place) noexcept;
 
-/// Adds their sum at each node of a brick to `sums`, in the order of NodeBricks::at(). It is exactly 0 beyond the
+/// Adds the sum at each node of a brick to `sums`, in the order of NodeBricks::at(). It is exactly 0 beyond the
 /// reach.
 void add_at_nodes(const RadialBumps& bumps, std::span<const std::uint32_t> which, const NodeLattice& lattice,
                   const glm::ivec3& brick, std::span<double, brick_nodes> sums) noexcept;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How frames of reference lie in each other, as somebody has registered them: DICOM REG (Spatial Registration).
+/// Registrations between frames of reference: DICOM REG (Spatial Registration).
 
 #include <filesystem>
 #include <optional>
@@ -18,28 +18,28 @@ namespace palpate::io {
 struct Registration {
   std::filesystem::path file;
   std::string frame_of_reference_uid;  ///< what it is registered to
-  std::string patient_id;              ///< to be compared; never written or shown
+  std::string patient_id;              ///< used only for comparison; never written or shown
   struct Part {
     std::string frame_of_reference_uid;  ///< what is registered
     RigidMotion motion;                  ///< from that frame to the one above
-    Text unfit;                          ///< why it cannot be applied; empty where it can
+    Text unfit;                          ///< why it cannot be applied; empty if it can
   };
   std::vector<Part> parts;
 };
 
-/// Reads a Spatial Registration (PS3.3 C.20.2), or a deformable one (C.20.3), which is listed and not applied. Nothing
+/// Reads a Spatial Registration (PS3.3 C.20.2), or a deformable one (C.20.3), which is listed but not applied. Nothing
 /// if the dataset is neither.
 std::optional<Registration> registration_in(DcmDataset& dataset, const std::filesystem::path& path);
 
 /// The motion from one frame of reference to another, or why there is none. Both empty if no registration has both.
 struct Joined {
   std::optional<RigidMotion> motion;
-  std::filesystem::path file;  ///< which registration says it
+  std::filesystem::path file;  ///< the registration's file
   Text why_not;
 };
 
-/// Several registrations may join them if they agree. Those of a patient whose id is another one than `patient_id` do
-/// not count.
+/// Several registrations may join them if they agree. Registrations of a patient with another id than `patient_id` are
+/// ignored.
 Joined join(std::span<const Registration> registrations, const std::string& from, const std::string& to,
             const std::string& patient_id);
 

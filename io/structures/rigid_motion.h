@@ -1,6 +1,6 @@
 #pragma once
 
-/// A turn and a shift: how one frame of reference lies in another.
+/// A rotation and a translation from one frame of reference to another.
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>

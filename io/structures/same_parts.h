@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether a change of a structure keeps its parts: which nodes of a box lie in parts that appear, go, join or divide.
+/// Whether a change of a structure keeps its parts: finds the nodes of parts that appear, vanish, join or divide.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -9,8 +9,8 @@
 namespace palpate::io::internal {
 
 /// `before`, `after`: of each node, i fastest, whether it lies inside. A part is what is joined along the axes, inside
-/// or outside. Returns the nodes of all parts that have no partner: each of a pair shares most of its nodes with the
-/// other.
+/// or outside. Returns the nodes of all parts without a partner. Two parts are partners if each shares most of its
+/// nodes with the other.
 std::vector<std::size_t> nodes_of_other_parts(const glm::ivec3& size, const std::vector<char>& before,
                                               const std::vector<char>& after);
 

@@ -9,8 +9,9 @@
 /// does not shift it.
 ///
 /// Blur shifts the edge of a round body towards the center of curvature: by half of the sum, over the two tangent
-/// directions, of the blur's variance times the curvature. That is taken out. The blur is the voxel's, the
-/// interpolation's, and what the width of the edge says of the scanner's; the curvature is the structure's.
+/// directions, of the blur's variance times the curvature. That shift is corrected. The blur is that of
+/// the voxel, of the interpolation, and of the scanner as the width of the edge tells; the curvature is the
+/// structure's.
 
 #include <memory>
 #include <optional>
@@ -29,13 +30,13 @@ struct ScanEdge {
                            ///< of the blur's shift
 };
 
-/// What the edge is looked for in.
+/// The data in which the edge is searched for.
 struct ScanValues {
   const FieldSource& source;  ///< the cubic value and its own gradient (GradientMethod::cubic)
   const Geometry& geometry;
 };
 
-/// The fields of a scan that an edge is looked for in.
+/// The fields of a scan that the search for an edge reads.
 std::shared_ptr<const FieldSource> edge_fields(const std::shared_ptr<const Volume>& scan);
 
 /// The edge nearest to a place on the structure's surface (mm, patient space) along a way (unit), within so many mm to

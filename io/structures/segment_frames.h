@@ -22,7 +22,7 @@ struct SegmentationPixels {
   internal::PixelFormat format;  ///< bits_allocated 1, 8 or 16
   internal::PixelCoding coding = internal::PixelCoding::native;
   bool big_endian = false;
-  std::uint64_t at = 0;  ///< where the pixels are: in the file; of the inflated dataset
+  std::uint64_t at = 0;  ///< first byte of the pixels, in the file or in the inflated dataset
   std::vector<std::vector<internal::Fragment>> fragments;
 };
 

@@ -13,8 +13,8 @@
 namespace palpate::io {
 
 struct SmoothestOptions {
-  /// How many coarser lattices, each of every second node, it begins on: so many that the coarsest has no nodes between
-  /// the slices of an outline, where nothing is known.
+  /// The number of coarser lattices on which it begins, each with every second node: so many that the coarsest has no
+  /// nodes between the slices of an outline, where nothing is known.
   int coarser = 0;
   int coarse_rounds = 8;  ///< on each of them
   int rounds = 6;         ///< how often the distance from the surface is taken anew, on the finest

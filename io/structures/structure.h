@@ -1,7 +1,7 @@
 #pragma once
 
-/// Structures that somebody has outlined: segments of a DICOM SEG, ROIs of an RTSTRUCT, labels of a label map. Listing
-/// reads headers; nothing is decoded before it is measured or felt.
+/// Outlined structures: segments of a DICOM SEG, ROIs of an RTSTRUCT, labels of a label map. To list them, only headers
+/// are read; a structure is decoded when it is measured or felt.
 
 #include <cstdint>
 #include <filesystem>
@@ -64,15 +64,16 @@ struct Structure {
   std::filesystem::path voxels_file;  ///< of a label map whose voxels lie in a file beside `file`; else empty
   StructureKind kind = StructureKind::segmentation;
   int number = 0;                      ///< SegmentNumber, ROINumber or the label's value
-  std::string name;                    ///< SegmentLabel, ROIName, ...; where there is none, what its code means
-  std::string code;                    ///< of what it is: "SCT 10200004 Liver", or empty
+  std::string name;                    ///< SegmentLabel, ROIName, ...; else the meaning of its code
+  std::string code;                    ///< code of its type: "SCT 10200004 Liver", or empty
   std::string color;                   ///< "#rrggbb", or empty
-  std::string frame_of_reference_uid;  ///< empty where it is not said
+  std::string frame_of_reference_uid;  ///< empty if the file does not say
   std::string study_uid;
-  std::string patient_id, patient_name;  ///< to be compared with the scan's; never written or shown
-  /// From the frame of reference that it was outlined in to the one above: a registration's (registration.h).
+  std::string patient_id, patient_name;  ///< compared with the scan's; never written or shown
+  /// The motion from the frame of reference in which it was outlined to the one above, from a registration
+  /// (registration.h).
   RigidMotion motion;
-  Text unfit;  ///< why it cannot be felt; empty where it can
+  Text unfit;  ///< why it cannot be felt; empty if it can
   std::vector<Text> warnings;
   std::shared_ptr<const StructureSource> source;
 };
@@ -80,7 +81,7 @@ struct Structure {
 struct StructureCatalogue {
   std::vector<Structure> structures;        ///< by file, then by number
   std::vector<Registration> registrations;  ///< found among them, by file
-  std::vector<SkippedFile> skipped;         ///< what claims to hold structures and does not
+  std::vector<SkippedFile> skipped;         ///< files that claim to hold structures and do not
 };
 
 /// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored.
@@ -94,11 +95,11 @@ std::vector<Registration> find_registrations(std::span<const std::filesystem::pa
 /// Reads one structure's distance, moved by its motion. Throws DicomError that names the file and the structure.
 std::shared_ptr<const DistanceField> load_distance(const Structure& structure, const DistanceOptions& options = {});
 
-/// Of the structure where its motion puts it. A scan gives contours of one plane their thickness where the file does
-/// not. Throws DicomError that names the file and the structure.
+/// Measures the structure after its motion. If the file gives no thickness for contours in a single plane, the scan's
+/// is used. Throws DicomError that names the file and the structure.
 StructureMeasures measure(const Structure& structure, const Geometry* scan = nullptr);
 
-/// A box that holds the structure where its motion puts it; for label maps much faster than measure(). Throws as
+/// A box that contains the structure after its motion; for label maps much faster than measure(). Throws as
 /// measure() does.
 StructureBox box_of(const Structure& structure);
 

@@ -24,9 +24,9 @@ struct StructureDataset {
 
 std::vector<Structure> structures_of_segmentation(const StructureDataset& file);
 std::vector<Structure> structures_of_contours(const StructureDataset& file);
-/// NIfTI, NRRD and MetaImage; none where it is another kind of file, or an image.
+/// NIfTI, NRRD and MetaImage. Adds none if it is another kind of file, or an image.
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path);
-/// Whether such a file holds labels and not a scan, by its values. Reads as far as it has to.
+/// Whether the values of such a file are labels and not a scan. Reads no more than it needs.
 bool is_label_map(const VoxelFile& file);
 
 }  // namespace palpate::io

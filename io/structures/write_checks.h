@@ -1,6 +1,6 @@
 #pragma once
 
-/// What all writers of structures refuse alike.
+/// Checks that all writers of structures share.
 
 #include <filesystem>
 #include <utility>

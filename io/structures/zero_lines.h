@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where values on a plane's lattice cross zero.
+/// Lines along which values on a plane's lattice cross zero.
 
 #include <glm/vec2.hpp>
 #include <span>
@@ -14,8 +14,8 @@ namespace palpate::io {
 /// clockwise. They do not cross. `values`: nodes.x * nodes.y of them, i fastest; those at the ends may not be above 0.
 std::vector<ContourPolygon> zero_lines(std::span<const double> values, const glm::ivec2& nodes);
 
-/// The lines with fewer points, none of which is moved: all that is left out lies within 0.01 mm of what is kept. A
-/// line around nothing wider than that is left out.
+/// The lines with fewer points. Kept points are not moved, and the points that are left out lie within 0.01 mm of the
+/// new lines. A line narrower than that is left out.
 std::vector<ContourPolygon> thinned(const std::vector<ContourPolygon>& lines_mm);
 
 }  // namespace palpate::io

@@ -43,7 +43,7 @@ std::vector<std::pair<int, std::string>> items(const std::string& body, std::siz
 std::map<int, std::string> accept(int socket, const std::string& request, bool agrees);
 /// A part of a message.
 std::string pdv(int context, bool command, bool last, const std::string& bytes);
-/// Sends a command or a dataset in several PDUs, with a pause before each.
+/// Reads a command or a dataset, from its first PDU to its last, with a pause before each.
 std::string read_part(int socket, int& context, std::chrono::microseconds pause = {});
 
 }  // namespace palpate::io::testing
