@@ -1,6 +1,6 @@
 #pragma once
 
-/// What io says to a user.
+/// The messages of io to the user.
 
 #include "io/archive/messages_of_archives.h"
 #include "io/dicom/messages_of_series.h"
@@ -9,7 +9,7 @@
 
 namespace palpate::io {
 
-/// The message of this id, with these values in its places.
+/// The message with this id, with these values in its places.
 template <typename... Values>
 Text say(
     std::type_identity_t<ChosenMessage<sizeof...(Values), messages::archives, messages::series, messages::structures>>

@@ -2,17 +2,17 @@
 
 /// The gradient of a scan at a scale: derivative of Gaussian, in patient space (LPS), per mm.
 ///
-/// At a voxel it is the slope of the plane that fits the voxels around best, each weighted by a Gaussian of its
-/// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighborhood that is the derivative of
+/// At a voxel it is the slope of the plane that best fits the surrounding voxels, each weighted by a Gaussian of its
+/// distance in mm (cut off at 3.2 sigma along each axis). On a complete neighborhood this equals the derivative of
 /// Gaussian. At the edge of the volume, beside padding, and between uneven or tilted slices it stays exact on linear
-/// fields. Voxels outside do not count, so the end of the data is no boundary. Source: Knutsson and Westin,
-/// "Normalized and differential convolution", CVPR 1993.
+/// fields. Voxels outside do not count, so the end of the data is no boundary. Source: Knutsson and Westin, "Normalized
+/// and differential convolution", CVPR 1993.
 ///
-/// Central differences between neighboring voxels are the alternative; they are sharper and noisier.
+/// Central differences between neighboring voxels are the alternative: sharper and noisier.
 ///
-/// One kernel serves the whole volume, a brick and a single sample, with the same bits in all three: every sum is taken
-/// in the same order, in single precision, without fused operations. OpenCV's filters cannot be used for this. Their
-/// rounding differs between vectorized part and end of a row, and from one processor to the next.
+/// The same kernel computes the whole volume, a brick and a single sample, with the same bits: every sum is taken in
+/// the same order, in single precision, without fused operations. OpenCV's filters do not allow this, because their
+/// rounding differs between the vectorized part and the end of a row, and between processors.
 
 #include <array>
 #include <cstddef>
@@ -28,10 +28,10 @@
 
 namespace palpate::io {
 
-/// The largest scale of a derivative of Gaussian on this grid, mm. A larger one is refused.
+/// The largest accepted scale of a derivative of Gaussian on this grid, mm.
 double largest_gradient_scale_mm(const Geometry& geometry) noexcept;
 
-/// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing), but no more than the largest: mm.
+/// max(1.5 mm, 2 in-plane voxels, 0.6 slice spacing), but at most the largest scale; mm.
 double default_gradient_scale_mm(const Geometry& geometry) noexcept;
 
 /// A box of voxels.
@@ -44,11 +44,11 @@ struct Block {
   }
 };
 
-/// Reads the volume; it holds little more than weights itself. Immutable: any number of threads may use it.
+/// Reads the volume, and itself stores little more than weights. Immutable: any number of threads may use it.
 class GradientKernel {
  public:
   struct CentralDifferences {};
-  /// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than 64 voxels, and another
+  /// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than 64 voxels, and a different
   /// std::logic_error for no volume.
   GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm);
   /// Central differences. Throws std::logic_error for no volume.
@@ -59,31 +59,29 @@ class GradientKernel {
 
   /// Sigma of the Gaussian; for central differences, half the largest distance that they span.
   double scale_mm() const noexcept;
-  /// Voxels that the kernel reaches over on each side of the one it is centered on.
+  /// Half the kernel's width along each axis, voxels.
   glm::ivec3 radius() const noexcept;
 
-  /// The eight voxels of a cell or fewer: writes size.x * size.y * size.z gradients, i fastest. May be called in the
-  /// tick. At most 2 voxels along each axis, all of them within the volume.
+  /// The gradients of the at most eight voxels of a cell: writes size.x * size.y * size.z of them, i fastest. May be
+  /// called in the tick. At most 2 voxels along each axis, all of them within the volume.
   void at_cell(const Block& cell, std::span<glm::vec3> gradients) const noexcept;
-  /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel's stored value in patient space, per mm^2; the rescale
-  /// slope is not applied. NaN if the neighborhood is incomplete, because second derivatives there would
-  /// be guesses.
+  /// The second derivatives xx, xy, yy, xz, yz, zz of a voxel's stored value in patient space, per mm^2, without the
+  /// rescale slope. NaN if the neighborhood is incomplete, because second derivatives there would be guesses.
   using Hessian = std::array<float, 6>;
-  /// Second derivatives of the same Gaussian at a cell's voxels; not for central differences. May be called in the
-  /// tick.
+  /// The Hessians of the same Gaussian at a cell's voxels; not for central differences. May be called in the tick.
   void hessians_at_cell(const Block& cell, std::span<Hessian> hessians) const noexcept;
-  /// The same for any block; allocates.
+  /// The Hessians of any block; allocates.
   void hessians_at_block(const Block& block, std::span<Hessian> hessians) const;
-  /// Any block within the volume; allocates.
+  /// The gradients of any block within the volume; allocates.
   void at_block(const Block& block, std::span<glm::vec3> gradients) const;
-  /// The whole volume piece by piece, on `threads` threads (0: all cores) and in no order: `use` gets every voxel once
-  /// and may be called by several threads at a time. Throws Cancelled, and what `use` throws.
+  /// Computes the whole volume block by block, on `threads` threads (0: all cores), in any order. `use` gets every
+  /// voxel once; several threads may call it at a time. Throws Cancelled, and any exception of `use`.
   void for_each_block(const std::function<void(const Block&, std::span<const glm::vec3>)>& use,
                       const Progress& progress = {}, int threads = 0) const;
   /// The whole volume's gradients: 12 bytes a voxel. Throws Cancelled.
   std::vector<glm::vec3> whole(const Progress& progress = {}, int threads = 0) const;
-  /// The same into the caller's memory: one for each voxel, i fastest. Fresh memory is fastest: it is
-  /// mapped in large pages, and first written by all threads.
+  /// The same into the caller's memory: one for each voxel, i fastest. Fresh memory is best: it is mapped in large
+  /// pages, and all threads share the first writes.
   void whole_into(std::span<glm::vec3> gradients, const Progress& progress = {}, int threads = 0) const;
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Counts how often each value of a scan occurs together with each gradient magnitude. Tissues are the bright
-/// spots at low magnitude, boundaries the arches between two of them. Source: Kindlmann and Durkin, "Semi-automatic
-/// generation of transfer functions for direct volume rendering", 1998.
+/// How often each value of a scan occurs together with each gradient magnitude. Tissues are bright spots at low
+/// magnitude, boundaries are arches between two of them. Source: Kindlmann and Durkin, "Semi-automatic generation of
+/// transfer functions for direct volume rendering", 1998.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace palpate::io {
 
-/// Bins of equal width over [low, high]. Values outside count in the first or last bin.
+/// Bins of equal width over [low, high]; values outside count in the first or last bin.
 struct Bins {
   double low = 0;
   double high = 1;
@@ -30,7 +30,7 @@ struct JointHistogram {
   Bins values;                        ///< in the volume's unit
   Bins magnitudes;                    ///< of the gradient, per mm
   std::vector<std::uint64_t> counts;  ///< value bins fastest
-  std::uint64_t voxels = 0;           ///< that were counted: all but padding
+  std::uint64_t voxels = 0;           ///< counted voxels: all except padding
 
   std::uint64_t at(int value_bin, int magnitude_bin) const noexcept {
     return counts[static_cast<std::size_t>(magnitude_bin) * static_cast<std::size_t>(values.count) +
@@ -38,8 +38,8 @@ struct JointHistogram {
   }
 };
 
-/// Counts every voxel, block by block: no gradient of the whole volume is kept. `threads` 0: all cores; the counts do
-/// not depend on them. Throws std::invalid_argument for empty bins, Cancelled.
+/// Counts every voxel, block by block, so the gradients of the whole volume are never stored. `threads` 0: all cores;
+/// the counts do not depend on their number. Throws std::invalid_argument for empty bins, Cancelled.
 JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                const Bins& magnitudes, const Progress& progress = {}, int threads = 0);
 
@@ -47,7 +47,7 @@ JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kerne
 struct LowHighHistogram {
   Bins values;                        ///< of low and of high, in the volume's unit
   std::vector<std::uint64_t> counts;  ///< low bins fastest
-  std::uint64_t voxels = 0;           ///< that were counted
+  std::uint64_t voxels = 0;           ///< counted voxels
 
   std::uint64_t at(int low_bin, int high_bin) const noexcept {
     return counts[static_cast<std::size_t>(high_bin) * static_cast<std::size_t>(values.count) +
@@ -55,19 +55,18 @@ struct LowHighHistogram {
   }
 };
 
-/// A voxel that a low-high histogram counts.
+/// A voxel counted in a low-high histogram.
 struct CountedEdge {
   glm::ivec3 voxel{0};
   glm::vec3 gradient{0};  ///< patient space, per mm
   int low = 0, high = 0;  ///< bins
 };
-/// Receives the edges above the first least magnitude, some at a time, in no fixed order. May be called by several
-/// threads.
+/// Receives the edges above the first least magnitude in batches, in any order; several threads may call it.
 using EdgeUse = std::function<void(std::span<const CountedEdge>)>;
 
-/// Counts the voxels whose gradient is steeper than the least magnitude (per mm), padding left out. Of a volume of more
-/// than some millions of voxels an evenly spread part is counted. `threads` 0: all cores; the counts do not depend on
-/// them. Throws std::invalid_argument for empty bins, Cancelled.
+/// Counts the voxels with a gradient above the least magnitude (per mm), except padding. Of a volume with more than
+/// some millions of voxels, an evenly spread sample is counted. `threads` 0: all cores; the counts do not depend on
+/// their number. Throws std::invalid_argument for empty bins, Cancelled.
 LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                     double least_magnitude, const Progress& progress = {}, int threads = 0);
 /// The same for several least magnitudes, in one pass over the volume: one histogram for each.

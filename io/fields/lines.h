@@ -5,7 +5,7 @@
 
 namespace palpate::io::internal {
 
-/// Uninitialized floats, aligned to a cache line.
+/// An array of floats that starts at a cache line; not initialized.
 class Lines {
  public:
   explicit Lines(std::size_t floats) : lines_(std::make_unique_for_overwrite<Line[]>((floats + 15) / 16)) {}

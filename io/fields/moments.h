@@ -1,8 +1,8 @@
 #pragma once
 
 /// Weighted sums over the neighborhoods of a block of voxels: of the values, and of the values times their offsets in
-/// mm, up to an order. Rows first, then columns, then slices; `lanes` voxels of a row side by side, each summed in the
-/// same order whatever the block, so that the sums of a voxel have the same bits in every block.
+/// mm, up to an order. Rows first, then columns, then slices. `lanes` voxels of a row are computed together, each
+/// summed in the same order in any block, so the sums of a voxel have the same bits in every block.
 
 #include <algorithm>
 
@@ -20,14 +20,14 @@ constexpr int space_sums(int order) {
   return order == 1 ? 4 : 10;
 }
 
-/// How a block lies in a scratch buffer of floats.
+/// The layout of a block in a scratch buffer of floats.
 struct BlockLayout {
   Block block;
   int width = 0;       ///< block.size.x rounded up to whole lanes
   int row_floats = 0;  ///< one row of the volume, with the kernel's reach on both sides
-  int rows = 0;        ///< rows that the block's columns reach over
+  int rows = 0;        ///< rows within the kernel's reach of the block
   int first_slice = 0;
-  int slices = 0;  ///< slices that the block reaches over and that exist
+  int slices = 0;  ///< existing slices within the kernel's reach of the block
   glm::ivec3 radius{0};
 
   BlockLayout(const Block& b, const SliceKernel& kernel, int lanes) : block(b), radius(kernel.radius) {
@@ -38,7 +38,7 @@ struct BlockLayout {
     slices = std::min(b.first.z + b.size.z + radius.z, static_cast<int>(kernel.of_slice.size())) - first_slice;
   }
   std::size_t plane() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(block.size.y); }
-  /// Offset of a sum at the first voxel of a row of the block in what moments() wrote.
+  /// Offset of a sum in the output of moments(), at the first voxel of a row of the block.
   std::size_t at(int order, int sum, int j, int k) const {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(space_sums(order)) + static_cast<std::size_t>(sum)) *
                plane() +
@@ -54,8 +54,8 @@ struct BlockLayout {
   }
 };
 
-/// A few voxels of a row side by side. Four fill a register of any x86-64 processor; the compiler's own wider vectors
-/// would be taken apart through memory.
+/// A few adjacent voxels of a row. Four fill a register of any x86-64 processor; for wider vectors the compiler would
+/// go through memory.
 template <int Lanes>
 struct Vector {
   static_assert(Lanes % 4 == 0);
@@ -134,7 +134,7 @@ class BlockSums {
   void sum_plane(int slice, int taps, float* plane) {
     const Taps& along_i = kernel_.taps_i[static_cast<std::size_t>(taps)];
     const Taps& along_j = kernel_.taps_j[static_cast<std::size_t>(taps)];
-    // Taps come from the middle outwards: the last two are the outermost.
+    // The taps are ordered from the middle outwards, so the last two are the outermost.
     const int outermost = along_j.back().offset;
     const int other = along_j.size() > 1 ? along_j[along_j.size() - 2].offset : outermost;
     const int first_row = layout_.radius.y + std::min(outermost, other);
@@ -256,7 +256,7 @@ class BlockSums {
     }
   }
 
-  /// Two slices at the same distance on both sides.
+  /// Two slices at equal distances on both sides.
   void add_pair(const Contribution& below, const Contribution& above, std::size_t n, Vector (&s)[in_space]) const {
     const std::size_t size = layout_.plane();
     const float* const b = plane_of(below.slice - layout_.first_slice) + n;
@@ -279,7 +279,7 @@ class BlockSums {
     }
   }
 
-  /// Shifts a slice's sums to offsets from the current slice, and adds them.
+  /// Shifts a slice's sums from its own origin to that of the current slice, and adds them.
   void add_shifted(const Contribution& c, float* out) const {
     const std::size_t size = layout_.plane();
     const float w = c.weight;

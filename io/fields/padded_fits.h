@@ -1,7 +1,7 @@
 #pragma once
 
 /// The plane fits of a tile's voxels that have padding in their neighborhoods (padding_map.h): from the weights of the
-/// voxels that count, with the same bits as fit_plane() of moments.h's sums.
+/// valid voxels, with the same bits as fit_plane() on the sums of moments.h.
 
 #include <vector>
 
@@ -16,16 +16,16 @@ namespace palpate::io::internal {
 
 class PaddedFits {
  public:
-  /// `rows`: of the largest tile. `planes`: how many slices' sums are kept, the newest.
+  /// `rows`: of the largest tile. `planes`: how many slices' sums are kept, the latest ones.
   PaddedFits(const SliceKernel& kernel, const Fits& fits, int rows, int planes);
 
   void start(const Block& tile, const PaddingMap& map);
-  /// Sums the weights of a slice in its plane, where they are needed. Slices in ascending order.
+  /// Sums a slice's weights in its plane, where needed. Slices must be added in ascending order.
   template <typename Stored>
   void add_plane(const RowReader<Stored>& weights, int slice);
-  /// The fits of those voxels of row j of slice k that PaddingMap::beside() names, both counted from the tile's first:
-  /// rows as in straight_sums.h. Call it for each row of a tile that has such voxels, slice by slice, after all
-  /// planes that slice k needs were added.
+  /// The fits of the voxels in PaddingMap::beside() of row j of slice k, both counted from the tile's first; rows as in
+  /// straight_sums.h. To be called for each row of the tile with such voxels, slice by slice, after adding all planes
+  /// that slice k needs.
   const float* of_row(int k, int j);
 
  private:

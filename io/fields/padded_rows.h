@@ -1,6 +1,6 @@
 #pragma once
 
-/// Converts rows of stored values, which may hold padding, for the gradient's kernel, in plain loops that the compiler
+/// Prepares rows of stored values, with possible padding, for the gradient's kernel: plain loops that the compiler
 /// vectorizes.
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which voxels of a tile have padding in their neighborhoods, and so a plane fit of their own. Whole rows are decided
-/// at once; a row that holds padding is decided eight voxels at a time.
+/// The voxels of a tile that have padding in their neighborhoods and so need plane fits of their own. Rows without
+/// padding are settled as a whole; a row with padding is examined in chunks of eight voxels.
 
 #include <algorithm>
 #include <bit>
@@ -15,12 +15,12 @@
 
 namespace palpate::io::internal {
 
-/// Eight voxels of a tile's row are a chunk; the first is the lowest bit.
+/// Bits for the chunks of a tile's row, the first chunk in the lowest bit. A chunk is eight voxels.
 using Chunks = std::uint32_t;
 inline constexpr int chunk_width = 8;  ///< voxels
 static_assert(tile_width == 32 * chunk_width);
 
-/// The range of voxels, counted from the tile's first, from the first to the last of some chunks.
+/// The range from the first to the last of some chunks; voxels, counted from the tile's first.
 struct Span {
   int begin = 0, end = 0;
 };
@@ -42,34 +42,34 @@ void for_each_stretch(Chunks chunks, const Use& use) {
   }
 }
 
-/// Maps a tile. If the fits at the volume's edge are unknown, all beyond the volume counts as padding.
+/// The map of one tile. If the fits at the volume's edge are not known, the outside of the volume counts as padding.
 class PaddingMap {
  public:
   PaddingMap(const Volume& volume, const SliceKernel& kernel, const Fits& fits, const Block& tile);
 
-  /// Whether a tile of this volume can have such voxels at all.
+  /// Whether a tile of this volume can have voxels with padding in their neighborhoods.
   static bool is_needed(const Volume& volume, const Fits& fits);
 
-  /// Whether there is padding in the tile's reach at all.
+  /// Whether there is padding within the kernel's reach of the tile.
   bool met_padding() const noexcept { return met_padding_; }
-  /// Whether the tile has such voxels.
+  /// Whether any voxel has padding in its neighborhood.
   bool any() const noexcept { return any_; }
-  /// The voxels of row j of slice k (both counted from the tile's first) with padding and values in their
+  /// The chunks of row j of slice k (both counted from the tile's first) with both padding and values in their
   /// neighborhoods. Without values no fit is needed, since all sums are 0.
   Chunks beside(int k, int j) const noexcept { return beside_[at(k, j)]; }
-  /// The voxels of row j of slice k with any value in their neighborhoods; all sums of the others are 0.
+  /// The chunks of row j of slice k with any value in their neighborhoods; in the others all sums are 0.
   Chunks valued(int k, int j) const noexcept { return valued_[at(k, j)]; }
-  /// The same for a slice of the volume and the sums in its plane.
+  /// The same for the in-plane sums of a slice of the volume.
   Chunks valued_in_plane(int slice, int j) const noexcept { return values_[at(slice - first_slice_, j)]; }
-  /// The same for row r of the rows that the tile reaches over, and the sums along the row.
+  /// The same for the sums along row r, counted from the first row within the tile's reach.
   Chunks valued_in_row(int slice, int r) const noexcept {
     return row_values_[static_cast<std::size_t>(slice - first_slice_) *
                            static_cast<std::size_t>(tile_.size.y + 2 * kernel_.radius.y) +
                        static_cast<std::size_t>(r)];
   }
-  /// Whether the tile's voxels in slice k have the fits of those in slice k - 1.
+  /// Whether the fits of slice k are those of slice k - 1.
   bool as_before(int k) const noexcept { return as_before_[static_cast<std::size_t>(k)]; }
-  /// Chunks of row j of a slice of the volume whose sums some slice's fits need.
+  /// The chunks of row j of a slice of the volume whose sums are needed for the fits of some slice.
   Chunks needed(int slice, int j) const noexcept { return needed_[at(slice - first_slice_, j)]; }
 
  private:
@@ -83,10 +83,10 @@ class PaddingMap {
   const SliceKernel& kernel_;
   const Fits& fits_;
   Block tile_;
-  int first_slice_ = 0, slices_ = 0;      // that the tile reaches over
+  int first_slice_ = 0, slices_ = 0;      // within the tile's reach
   std::vector<Chunks> padding_, values_;  // within the reach of a row's chunks, in each of these slices
-  std::vector<bool> padded_as_before_;    // whether a slice has its padding where the one before has it
-  std::vector<Chunks> row_values_;        // of each row that the tile reaches over
+  std::vector<bool> padded_as_before_;    // whether a slice has its padding at the same places as the slice before
+  std::vector<Chunks> row_values_;        // of each row within the tile's reach
   std::vector<Chunks> beside_, valued_, needed_;
   std::vector<bool> as_before_;
   bool met_padding_ = false, any_ = false;

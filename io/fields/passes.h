@@ -1,14 +1,14 @@
 #pragma once
 
-/// Loops over a kernel's taps with counts that are known at compile time.
+/// Loops over a kernel's taps with a count known at compile time.
 
 namespace palpate::io::internal {
 
-/// The number of taps in one pass: as many as there are registers for their weights, so that the sums stay in
-/// registers. The first pass starts the sums.
+/// The largest number of pairs in one pass: their weights and the sums should fit into registers. The first pass starts
+/// the sums.
 inline constexpr int most_at_once = 8;
 
-/// Calls run<Count>() with a count of most_at_once at most.
+/// Calls run<Count>(); Count is at most most_at_once.
 template <int Most = most_at_once, typename Run>
 [[gnu::always_inline]] inline void with_count(int count, const Run& run) {
   if constexpr (Most > 0) {
@@ -17,7 +17,7 @@ template <int Most = most_at_once, typename Run>
   run.template operator()<Most>();
 }
 
-/// Calls pass<Count, First>(done) with the pairs that are done.
+/// Calls pass<Count, First>(done); `done` is the number of pairs done before.
 template <typename Pass>
 [[gnu::always_inline]] inline void in_passes(int count, const Pass& pass) {
   with_count(

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The plane that fits a neighborhood best: from weighted sums to a gradient.
+/// The best-fitting plane of a neighborhood: from weighted sums to a gradient.
 
 #include <cstddef>
 #include <glm/mat3x3.hpp>
@@ -14,8 +14,8 @@ struct PlaneFit {
   glm::vec3 constant{0};
 };
 
-/// Of a voxel whose sums (1, p, q, w) lie `stride` floats apart. Never a negative zero, so that a sum that is left out
-/// because it would be multiplied by zero changes no bit.
+/// The gradient of a voxel whose sums (1, p, q, w) are `stride` floats apart. Never a negative zero, so leaving out a
+/// sum that would be multiplied by zero changes no bit.
 inline glm::vec3 gradient_of(const PlaneFit& fit, const float* s, std::size_t stride) noexcept {
   glm::vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) {
@@ -26,12 +26,12 @@ inline glm::vec3 gradient_of(const PlaneFit& fit, const float* s, std::size_t st
   return gradient;
 }
 
-/// From the sums of the weights themselves (1, p, q, w, pp, pq, qq, pw, qw, ww: `stride` floats apart). A direction
-/// along which the neighborhood has no extent worth a slope (a single slice, a lone voxel beside padding) gets slope
-/// 0. to_patient: gradient along (p, q, w) -> patient space, rescale slope included.
+/// The fit from the sums of the weights themselves (1, p, q, w, pp, pq, qq, pw, qw, ww: `stride` floats apart). The
+/// slope is 0 along a direction in which the neighborhood has too little extent (a single slice, a lone voxel beside
+/// padding). to_patient: gradient along (p, q, w) -> patient space, rescale slope included.
 PlaneFit fit_plane(const float* sums, std::size_t stride, double scale_mm, const glm::dmat3& to_patient) noexcept;
 
-/// The same, with the same bits, of the voxels of a row from `begin` to `end`, a multiple of four: sums and fits lie
+/// The same, with the same bits, for the voxels of a row from `begin` to `end`, a multiple of four. Sums and fits are
 /// tile_width floats apart, the fits in rows as in straight_sums.h.
 void fit_planes(const float* sums, int begin, int end, double scale_mm, const glm::dmat3& to_patient,
                 float* fits) noexcept;

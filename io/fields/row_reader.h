@@ -1,6 +1,6 @@
 #pragma once
 
-/// Reads a volume's rows for the gradient's kernel.
+/// Prepares a volume's rows for the gradient's kernel.
 
 #include <algorithm>
 #include <type_traits>
@@ -16,7 +16,7 @@ namespace palpate::io::internal {
 template <typename Stored>
 class RowReader {
  public:
-  /// has_padding: false if it is known that the rows hold none.
+  /// has_padding: false if the rows to be read are known to hold none.
   RowReader(const Volume& volume, const std::vector<Stored>& voxels, bool mask, bool has_padding = true)
       : volume_(volume),
         voxels_(voxels.data()),
@@ -43,12 +43,12 @@ class RowReader {
     const Stored* const row = voxels_ + volume_.offset(0, j, slice);
     for (int n = first; n < std::min(i + count, size.x); n += line) __builtin_prefetch(row + n);
   }
-  /// Whether everything read so far was inside and no padding.
+  /// Whether everything read so far was inside the volume and free of padding.
   bool complete() const noexcept { return complete_; }
   bool met_padding() const noexcept { return met_padding_; }
 
  private:
-  static constexpr int line = 64 / sizeof(Stored);  ///< voxels in a cache line
+  static constexpr int line = 64 / sizeof(Stored);  ///< voxels in one cache line
 
   void copy(const Stored* stored, int count, float* row) const noexcept {
     if (!has_padding_) {

@@ -14,7 +14,7 @@ namespace palpate::io::internal {
 
 using Hessian = GradientKernel::Hessian;
 
-/// The rounding error of a few hundred additions in single precision, for a sum that should cancel.
+/// The relative rounding error, after a few hundred additions in single precision, of a sum that should cancel.
 inline constexpr double single_rounding = 3e-6;
 
 /// The sums of second order, as a matrix.
@@ -29,15 +29,15 @@ inline Hessian unknown_hessian() noexcept {
   return unknown;
 }
 
-/// From the sums of second order of a complete neighborhood to its Hessian: the second derivative of a Gaussian of
-/// covariance C is C^-1 (x x^T - C) C^-1 times it.
+/// From the second-order sums of a complete neighborhood to its Hessian: the second derivative of a Gaussian of
+/// covariance C is the Gaussian times C^-1 (x x^T - C) C^-1.
 class SecondDerivatives {
  public:
   SecondDerivatives(const Fits::Sums& whole, double scale_mm, const glm::dmat3& to_patient) noexcept
       : total_(static_cast<double>(whole[0])), rounding_(single_rounding * scale_mm * scale_mm) {
     const auto weight = [&](std::size_t n) { return static_cast<double>(whole[n]) / total_; };
     covariance_ = second_order(weight);
-    known_ = glm::determinant(covariance_) > 0;  // a single slice has no curvature across
+    known_ = glm::determinant(covariance_) > 0;  // a single slice has no curvature across slices
     inverse_ = known_ ? to_patient * glm::inverse(covariance_) : glm::dmat3(0);
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The Gaussian weights with which each slice contributes to each, for any slice geometry: even, uneven or tilted.
+/// The Gaussian weights between any two slices, for any slice geometry: even, uneven or tilted.
 ///
 /// Offsets are in mm along the geometry's own basis (direction_i, direction_j, normal). A tilted slice's neighbors are
 /// displaced in its plane, so the in-plane weights are centered there: the Gaussian stays round in the patient.
@@ -21,9 +21,9 @@ struct Tap {
   float weight[3] = {0, 0, 0};
 };
 
-/// Ordered from the middle outwards, sides in turn (the negative first). Where the middle is a voxel the two sides are
-/// alike, and are added or subtracted before they are weighted: half the products, and on even data what is left and
-/// what is right of the middle cancels to exactly 0.
+/// Ordered from the middle outwards, alternating sides (the negative first). If the middle is a voxel, the two sides
+/// have equal weights, so their values are added or subtracted before weighting. This halves the products, and on even
+/// data the two sides cancel to exactly 0.
 using Taps = std::vector<Tap>;
 
 /// The contribution of slice `slice` to another slice.
@@ -32,7 +32,8 @@ struct Contribution {
   float weight = 0;
   float offset[3] = {0, 0, 0};  ///< mm: this slice's voxel (i, j) from the other's voxel (i, j)
   int taps = 0;                 ///< index into SliceKernel::taps_i and taps_j
-  /// Whether the next contribution lies as far on the other side, with the same weight: the two are added first.
+  /// Whether the next contribution has the same distance on the other side, and the same weight: the two are added
+  /// first.
   bool paired = false;
 };
 
@@ -40,8 +41,8 @@ struct SliceKernel {
   std::vector<std::vector<Contribution>> of_slice;  ///< by slice, from itself outwards
   std::vector<Taps> taps_i;
   std::vector<Taps> taps_j;
-  /// Whether all contributions share the first taps, so that a slice summed in its plane serves every other.
-  /// The taps are then symmetric, too.
+  /// Whether all contributions share the first taps, so that the in-plane sums of a slice serve every other slice. The
+  /// taps are then symmetric, too.
   bool straight = true;
   glm::ivec3 radius{0};   ///< largest offset along each axis
   glm::dmat3 to_patient;  ///< gradient along the basis -> gradient in patient space (inverse transpose of the basis)

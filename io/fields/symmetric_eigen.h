@@ -11,8 +11,8 @@ struct SymmetricEigen {
   glm::dmat3 vectors{1};
 };
 
-/// By Eigen's symmetric QR iteration: Golub and Van Loan, "Matrix Computations", section 8.3. For the tick: it
-/// allocates nothing, and its number of steps is bounded.
+/// With Eigen's symmetric QR iteration: Golub and Van Loan, "Matrix Computations", section 8.3. For the tick: no
+/// allocation, and a bounded number of steps.
 SymmetricEigen eigen_of_symmetric(const glm::dmat3& matrix) noexcept;
 
 }  // namespace palpate::io::internal

@@ -6,7 +6,7 @@
 
 namespace palpate::io::internal {
 
-/// The gradients of a block of a scan whose slices are displaced within their planes: as straight_block() for others.
+/// straight_block() for a scan whose slices are displaced within their planes.
 template <typename Stored>
 void tilted_block(const Volume& volume, const std::vector<Stored>& voxels, const SliceKernel& kernel, const Fits& fits,
                   const Block& block, const GradientTarget& target);

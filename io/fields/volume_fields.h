@@ -17,30 +17,31 @@ class BrickCache;
 struct Cell;
 }  // namespace internal
 
-/// The fields that a volume can give: the value and all that is derived from it, and vectors if it holds them.
+/// The fields that a volume can give: the value and everything derived from it, and vectors if it holds them.
 FieldSet fields_of(const Volume& volume) noexcept;
 
 /// Value: between voxel centers by FieldOptions::value, in `Volume::unit`. Gradient: trilinear between the voxels'
-/// gradients (GradientKernel), per mm. Where slices are unevenly spaced or tilted, interpolation follows the grid as it
-/// is.
+/// gradients (GradientKernel), per mm. Interpolation follows the scan's own grid, with unevenly spaced or tilted
+/// slices, too.
 ///
-/// Low and high: of the voxels around (low_high.h), each weighted by its share and by its gradient's square.
+/// Low and high: mean over the surrounding voxels (low_high.h), weighted by their trilinear weights and squared
+/// gradients.
 ///
 /// Tube: the eigenvector of least curvature of the Hessian at the gradient's scale, trilinear between the voxels'
 /// Hessians; zero within the kernel's reach of the edge or of padding.
 ///
 /// Vector: trilinear between the voxels' vectors, in `Volume::unit`.
 ///
-/// A worker computes gradients (with low and high, and Hessians, where they are wanted) in bricks ahead of and around
-/// the point last sampled, and keeps them under a memory bound. A sample that finds its brick missing computes its cell
-/// with the same kernel: it takes longer and gives the same bits.
+/// A worker computes gradients (and low and high, and Hessians, if they are wanted) in bricks around and ahead of the
+/// latest sample, within a memory bound. If its brick is missing, a sample computes its cell with the same kernel:
+/// slower, with the same bits.
 ///
-/// A point is outside beyond the hull of the voxel centers, between slices if some are missing there, and if a voxel
-/// that the interpolation needs is padding.
+/// Outside: beyond the hull of the voxel centers, between slices where some are missing, and where the interpolation
+/// would need a voxel that is padding.
 class VolumeFields : public FieldSource {
  public:
-  /// Prepares only what the wanted fields need. `scale_mm` is the Gaussian's; without a Gaussian it is not read. Throws
-  /// std::invalid_argument for a null volume, for fields that the scan does not have, and for a scale out of range.
+  /// Prepares only what the wanted fields need. `scale_mm` is the Gaussian's; without a Gaussian it is ignored. Throws
+  /// std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
   VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                const FieldOptions& options = {});
   ~VolumeFields() override;
@@ -53,7 +54,7 @@ class VolumeFields : public FieldSource {
   /// memory allows.
   void prepare(const Vec3& position_mm, double distance_mm) const;
 
-  /// Largest memory beyond the volume's own, bytes.
+  /// Largest memory use in addition to the volume's own, bytes.
   std::size_t memory_bytes() const noexcept;
 
  private:
@@ -63,7 +64,7 @@ class VolumeFields : public FieldSource {
   ValueMethod value_;
   Vec3 b_spline_part_;
   std::unique_ptr<const GradientKernel> kernel_;          ///< of gradients
-  std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< for tubes, if it is another one
+  std::unique_ptr<const GradientKernel> hessian_kernel_;  ///< of tubes, if it is a different one
   std::unique_ptr<internal::BrickCache> bricks_;
   std::unique_ptr<internal::BrickCache> tube_bricks_;
 

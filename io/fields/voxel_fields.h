@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fields of a scan at single voxels, for code that needs few of them. The bits are those of VolumeFields at a
+/// The fields of a scan at single voxels, for callers that need only a few: with the same bits as VolumeFields at a
 /// voxel's center.
 
 #include <glm/vec3.hpp>
@@ -18,9 +18,9 @@ class VoxelFields {
   /// `scale_mm`: sigma of the gradients' Gaussian.
   VoxelFields(const Volume& volume, ValueMethod value, double scale_mm);
 
-  /// The value in `Volume::unit`; none if nothing can be sampled: in padding, and where it is no number.
+  /// The value in `Volume::unit`; none if it cannot be sampled (in padding) or is NaN.
   std::optional<double> value(const glm::ivec3& voxel) const noexcept;
-  /// The low and high of a voxel that has a value, given its gradient (patient axes, per mm).
+  /// The low and high of a voxel that has a value, given its gradient: patient axes, per mm.
   LowHigh low_high(const glm::ivec3& voxel, const glm::vec3& gradient) const noexcept {
     return low_high_at(volume_, voxel, Vec3(gradient), scale_mm_);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whole files of label maps, as `LabelFormat::bytes` says.
+/// Encodes label maps as whole files, for `LabelFormat::bytes`.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace palpate::io {
 
-/// NIfTI-1; ".nii.gz" is packed.
+/// NIfTI-1; ".nii.gz" is gzipped.
 std::string nifti_bytes(const LabelImage& image, std::string_view ending);
 /// ".seg.nrrd" has the fields that 3D Slicer reads.
 std::string nrrd_bytes(const LabelImage& image, std::string_view ending);

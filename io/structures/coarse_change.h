@@ -1,6 +1,6 @@
 #pragma once
 
-/// Brings the coarse lattice of a field up to date after an edit.
+/// Updates the coarse lattice of a field after an edit.
 
 #include <functional>
 #include <span>
@@ -16,13 +16,13 @@ struct CoarseChange {
   const NodeLattice& lattice;  ///< of the points, mm along its axes from its origin
   std::span<const Stretch> where;
   double within_mm = 0;
-  std::vector<Vec3f> lost{};                                     ///< points of the old surface that may have gone
+  std::vector<Vec3f> lost{};                                     ///< points of the old surface that may be gone
   std::vector<Vec3f> surface{};                                  ///< points of the new surface
-  std::function<double(const Vec3& at, double before)> after{};  ///< a number with the new sign
+  std::function<double(const Vec3& at, double before)> after{};  ///< its sign is that of the new field
 };
 
-/// Distances are true within 20 mm of the change. Over 12 mm more they blend into the old distances. `parts` already
-/// has the new bricks, and still the old lattice.
+/// Distances are true within 20 mm of the change, and blend into the previous ones within 12 mm more. `parts` must hold
+/// the new bricks, and the lattice from before the edit.
 void change_coarse(const CoarseChange& change, int threads, DistanceParts& parts);
 
 }  // namespace palpate::io::internal

@@ -8,7 +8,7 @@
 
 namespace palpate::io {
 
-/// The weights of one axis if Number is a double, or of several axes if it is a vector.
+/// Weights along one axis if Number is a double; along several axes side by side if it is a vector.
 template <typename Number>
 struct CubicWeightsOf {
   Number value[4];  ///< of the nodes at -1, 0, 1 and 2
@@ -29,18 +29,18 @@ struct CubicSample {
   double slope[3] = {0, 0, 0};
 };
 
-/// From 4 x 4 x 4 numbers whose rows are `row` and planes `plane` apart; `first` is the one at -1, -1, -1. x, y, z: the
-/// part of a step along each axis.
+/// From 4 x 4 x 4 numbers; rows are `row` and planes `plane` apart, and `first` is the number at -1, -1, -1. x, y, z:
+/// the fraction of a step along each axis.
 CubicSample plain_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
                                double z) noexcept;
 
-/// The same to the last bit, for processors with AVX2. Null on other processors.
+/// The same to the last bit, for processors with AVX2. Not defined for others.
 #ifdef __x86_64__
 CubicSample wide_cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane, double x, double y,
                               double z) noexcept;
 #endif
 
-/// The faster of them on this processor.
+/// The faster one on this processor.
 inline CubicSample cubic_sample(const float* first, std::ptrdiff_t row, std::ptrdiff_t plane,
                                 const glm::dvec3& t) noexcept {
 #ifdef __x86_64__

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The least and the largest possible distance of each node near the surface, as the outline allows. A node
-/// inside is at most as far from the surface as from the nearest point that is known to be outside; for a node outside
-/// the same holds the other way round. A field within these bounds has every voxel on its own side of the surface.
+/// The least and the largest possible distance of each node near the surface, from an outline. A node inside is at most
+/// as far from the surface as from the nearest point that is known to be outside, and vice versa. A field within these
+/// bounds has every voxel on its own side of the surface.
 
 #include <vector>
 

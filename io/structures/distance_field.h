@@ -1,6 +1,6 @@
 #pragma once
 
-/// The signed distance from a structure's surface at any point of the patient, for the modes of a scene.
+/// The signed distance from a structure's surface at any point of the patient, as read by a scene's modes.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,21 +16,20 @@
 namespace palpate::io {
 
 struct DistanceOptions {
-  /// How far from the surface the distance is kept at full detail, mm: a margin, or the last node of a gate. Farther
-  /// away it is interpolated on a coarse lattice.
+  /// Distance from the surface up to which full detail is kept, mm: a margin, or the last node of a gate. Farther away
+  /// the distance is interpolated on a coarse lattice.
   double reach_mm = 3;
-  /// The scan with which the structure is felt. Distances are kept for all of the scan, and the structure is assumed to
-  /// continue beyond its ends. Null: distances are kept for the structure's box and its surroundings. Read only while
-  /// the field is made.
+  /// The scan to be felt with it. Distances are kept for all of the scan, and a structure is assumed to go on beyond
+  /// its ends. Null: they are kept for the structure's box and its surroundings. Read only while the field is made.
   const Geometry* scan = nullptr;
-  /// The motion from the structure's frame of reference to the scan's.
+  /// From the structure's frame of reference to the scan's.
   RigidMotion motion;
   int threads = 0;  ///< 0: all cores
 };
 
-/// A smooth field. Its surface is the smoothest one that has every voxel's center on the right side (smoothest.h). The
-/// distance is measured from that surface (closest_points.h), and is cubic between nodes near it, so once
-/// differentiable. Immutable.
+/// A smooth field. Its surface is the smoothest one with every voxel's center on the right side (smoothest.h). The
+/// distance is measured from that surface (closest_points.h), and interpolated cubically between nodes near it, so it
+/// is once differentiable. Immutable.
 class DistanceField {
  public:
   DistanceField(const OutlinePlanes& planes, const DistanceOptions& options);
@@ -39,7 +38,7 @@ class DistanceField {
   Distance sample(const Vec3& position_mm) const noexcept;
 
   std::size_t bricks() const noexcept { return parts_.near.count(); }
-  /// Bricks that several fields share are counted in each.
+  /// Bricks that several fields share are counted for each field.
   std::size_t memory_bytes() const noexcept { return parts_.memory_bytes(); }
   double reach_mm() const noexcept { return parts_.reach_mm; }
 

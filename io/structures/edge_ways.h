@@ -1,12 +1,13 @@
 #pragma once
 
-/// How far the places of an outline go to the scan's own edge, so that the new outline is as smooth and as whole as the
-/// old one.
+/// The displacement of an outline's points to the scan's own edge, such that the new outline is as smooth as the old
+/// one and has the same parts.
 ///
-/// The new surface is phi(x) = way(x), where phi is the distance from the old one. Its parts are those of the old one
-/// as long as no place is passed on the way at which the slope of phi is less than that of the way: the distance from
-/// a surface has slope 1, but between two walls it has none. (F. Chazal, A. Lieutier, "The lambda-medial axis",
-/// Graphical Models 67, 2005.) So the ways rise and fall along the surface by no more than a given slope, and end
+/// The new surface is phi(x) = way(x), with the distance phi from the old surface and the displacement way. It keeps
+/// the parts of the old surface if on the way phi is always steeper than the displacement: the distance from a surface
+/// has slope 1, but between two walls it has none. (F. Chazal, A. Lieutier, "The lambda-medial axis", Graphical Models
+/// 67, 2005.) So the displacement's slope along the surface is limited, and each way ends before the slope of phi is
+/// low. Ways that are too long are shortened, to zero if necessary.
 /// before the slope of phi is low. What is too far is shortened, down to nothing where it has to be.
 
 #include <algorithm>
@@ -23,27 +24,28 @@ namespace palpate::io::internal {
 
 struct EdgeWay {
   OutlinePlace at;
-  double mm = 0;          ///< along the inward normal
+  double mm = 0;          ///< displacement along the inward normal
   bool stays = true;      ///< the outline stays there exactly
   bool has_edge = false;  ///< in the scan
-  double edge_mm = 0;     ///< place of the scan's edge, along the inward normal
+  double edge_mm = 0;     ///< the position of that edge along the inward normal
   double known_to_mm = 0;
 
-  /// Whether the way ends before the scan's edge: because of the neighboring places or the radius, or because a part
-  /// would appear or vanish.
+  /// Whether the outline stops short of the scan's edge: because neighboring places disagree, the radius is near, or a
+  /// part would appear or vanish.
   bool is_held_back() const { return has_edge && std::abs(edge_mm - mm) > std::max(known_to_mm, 0.5); }
 };
 
 class EdgeWays {
  public:
-  /// Finds the scan's edge at all places within the edit's radius. Throws InvalidInput if the outline is not within it.
+  /// Searches the scan's edge at all places within the edit's radius. Throws InvalidInput if the outline is not within
+  /// it.
   EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const ScanValues& scan, int threads);
 
-  /// Halves the ways of the places near these points, or sets them to 0 after some rounds or if `end`. False if none of
-  /// the places had a way.
+  /// Halves the ways of the places near these points; after some rounds, or if `end` is set, makes them zero. False if
+  /// none of the places had a way.
   bool hold_back(const std::vector<Vec3>& points, const DistanceField& before, bool end);
 
-  /// The way at a point, from its distance and the gradient there: smooth, and 0 at the radius and beyond.
+  /// The displacement at a point, from its distance and the gradient there: smooth, and 0 at the radius and beyond.
   double way_at(const Vec3& at, const Distance& before) const;
 
   const std::vector<EdgeWay>& places() const { return places_; }
@@ -60,7 +62,7 @@ class EdgeWays {
   double spacing_mm_ = 1;           ///< between places
   double node_mm_ = 1;              ///< of the field
   std::vector<EdgeWay> places_;     ///< some beyond the radius, too: those stay
-  std::vector<double> allowed_mm_;  ///< of each place, before it is graded
+  std::vector<double> allowed_mm_;  ///< of each place, before its slope is limited
   std::vector<std::uint8_t> halved_;
   double largest_mm_ = 0;
   std::vector<std::vector<std::uint32_t>> cells_;  ///< places near each cell of a lattice around the center

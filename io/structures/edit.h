@@ -1,7 +1,7 @@
 #pragma once
 
-/// The edits of a structure's outline, as plain values. A correction is an ordered list of edits. It never
-/// changes a file. All places are in patient space (LPS), mm.
+/// A user's changes to a structure's outline, as plain values. A correction is an ordered list of edits. It never
+/// changes a file. All positions are in patient space (LPS), mm.
 
 #include <cstddef>
 #include <optional>
@@ -12,17 +12,17 @@
 
 namespace palpate::io {
 
-/// The edge goes through these points, and is as before farther than the reach from all of them.
+/// The edge is moved to these points, and is unchanged farther than the reach from all of them.
 struct TraceEdit {
   static constexpr double usual_reach_mm = 8;
 
   std::vector<Vec3> points_mm;
-  std::vector<double> known_to_mm;  ///< two standard deviations of each point; or empty: all are exact
+  std::vector<double> known_to_mm;  ///< uncertainty of each point, two standard deviations; empty: all are exact
   double reach_mm = usual_reach_mm;
   bool operator==(const TraceEdit&) const = default;
 };
 
-/// A path with a radius: one capsule from each point to the next, or a ball.
+/// A path with a radius: a capsule from each point to the next; a ball if there is one point.
 struct Tube {
   std::vector<Vec3> path_mm;
   double radius_mm = 3;
@@ -37,17 +37,17 @@ struct RemoveEdit {
   bool operator==(const RemoveEdit&) const = default;
 };
 
-/// Within a ball the edge moves along its normal to the scan's edge, if that edge's uncertainty is smaller than the way
-/// there. It stays where the scan has no edge. The ways of neighboring places are smoothed: a place that differs from
-/// its neighbors moves as they do, or stays, and a way that would make a part appear or vanish is shortened.
+/// Within a ball the edge moves along its normal to the scan's own edge, if the uncertainty of that edge is smaller
+/// than the move. It stays where the scan has no edge. The moves of neighboring places are smoothed: an outlier takes
+/// its neighbors' move, or stays, and a move that would make a part appear or vanish is shortened.
 struct ScanEdgeEdit {
   Vec3 center_mm{0};
   double radius_mm = 10;
-  double most_mm = 3;  ///< the largest way
+  double most_mm = 3;  ///< the largest move
   bool operator==(const ScanEdgeEdit&) const = default;
 };
 
-/// A new structure: closed loops on parallel planes, as those of an RTSTRUCT. It can only be the first edit.
+/// A new structure: closed loops on parallel planes, like those of an RTSTRUCT. Can only be the first edit.
 struct ContoursEdit {
   std::vector<std::vector<Vec3>> loops_mm;
   bool operator==(const ContoursEdit&) const = default;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What each kind of edit makes of a field.
+/// The effect of each type of edit on a field.
 
 #include "io/structures/edits.h"
 #include "io/structures/field_change.h"

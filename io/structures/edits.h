@@ -1,18 +1,18 @@
 #pragma once
 
 /// Applies edits to a structure's distance field. The result is a new field; the old one is unchanged, so an edit is
-/// undone by using the old field again. Both share all unchanged bricks.
+/// undone by taking the old field. Both share all unchanged bricks.
 ///
 /// A trace adds radial functions to the distance phi: phi' = phi + sum c_i w(|x - p_i| / R), w = (1-r)^4 (4r+1), with
 /// (W + diag(mu s_i^2)) c = -phi(p_i). (H. Wendland, "Piecewise polynomial, positive definite and compactly supported
 /// radial functions of minimal degree", Adv. Comput. Math. 4, 1995: once and twice differentiable, positive definite.)
 /// add and remove join and cut with a polynomial smooth maximum, which is once differentiable and exact elsewhere.
 /// After each edit phi' is made a distance again. Laws, which edits_laws_test.cpp checks:
-///  - a trace passes within 0.05 mm of its points (after thinning) if they are exact;
-///  - the distance keeps its bits wherever the nearest edge, before and after, lies beyond the reach;
-///  - a trace of the edge as it is changes less than 0.01 mm; edits that are far apart commute;
-///  - scan_edge keeps all parts and closed cavities, and moves no farther than asked (edit_scan_edge_laws_test.cpp). It
-///    does not check that a tunnel through a part stays.
+///  - a trace goes through its points (those kept by the thinning) within 0.05 mm if they are exact;
+///  - the distance keeps its bits where the nearest edge, before and after, is beyond the reach;
+///  - a trace of the unchanged edge changes less than 0.01 mm; edits that are far apart commute;
+///  - scan_edge keeps all parts and closed cavities, and moves no farther than asked (edit_scan_edge_laws_test.cpp).
+///    Tunnels through a part are not checked.
 
 #include <memory>
 #include <span>
@@ -32,13 +32,13 @@ struct EditOptions {
   int threads = 0;  ///< 0: all cores; the result is the same on any number
 };
 
-/// What an edit did, to be shown to the user.
+/// The result of an edit, to be shown to the user.
 struct EditOutcome {
-  double largest_mm = 0;         ///< how far the edge moved, as a bound: the largest change of a traced or moved point
-  std::size_t points = 0;        ///< points that the edge passes through; for scan_edge: examined places
-  std::size_t without_edge = 0;  ///< for scan_edge: places without an edge in the scan, where the outline stays
-  std::size_t held_back = 0;  ///< for scan_edge: places whose outline ends more than 0.5 mm and the +- before the edge,
-                              ///< because of neighboring places or the radius, or because a part would appear or vanish
+  double largest_mm = 0;         ///< bound on how far the edge moved: the largest change of a traced or moved point
+  std::size_t points = 0;        ///< points that the edge was put through; for scan_edge: sampled places
+  std::size_t without_edge = 0;  ///< for scan_edge: places at which the scan has no edge; the outline stays there
+  std::size_t held_back = 0;  ///< for scan_edge: places where the outline stops short of the edge by more than 0.5 mm
+                              ///< and the edge's uncertainty (see EdgeWay::is_held_back)
 };
 
 struct Edited {
@@ -46,8 +46,8 @@ struct Edited {
   std::vector<EditOutcome> outcomes;  ///< one for each edit
 };
 
-/// The field after one edit. Throws InvalidInput in words that begin with what the edit is: "trace: its point 3 lies
-/// ...". `before` may be null for contours alone.
+/// The field after one edit. Throws InvalidInput; its text begins with the type of the edit: "trace: its point 3 lies
+/// ...". `before` may be null for contours only.
 std::shared_ptr<const DistanceField> apply_edit(const std::shared_ptr<const DistanceField>& before, const Edit& edit,
                                                 const EditOptions& options = {}, EditOutcome* outcome = nullptr);
 

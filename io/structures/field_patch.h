@@ -1,6 +1,6 @@
 #pragma once
 
-/// The bricks of a field around a change, while the distance is measured anew in them.
+/// The bricks of a field around a change, while their distances are measured again.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace palpate::io::internal {
 
-/// The index of a brick's node in the numbers that the field stores of the brick.
+/// The index of a brick's node in the field's storage.
 inline std::size_t stored_at(int i, int j, int k) {
   return static_cast<std::size_t>(((k + 1) * DistanceParts::wide + j + 1) * DistanceParts::wide + i + 1);
 }
 
-/// The bricks around a change: a box of the field's bricks, and in it those that are measured anew.
+/// The bricks around a change: a box of the field's bricks, some of which are measured again.
 struct Patch {
   const DistanceParts& old;
   const FieldChange& change;
-  glm::ivec3 low{0};                               ///< of the box, in the field's bricks; may lie before them
-  NodeBricks bricks{};                             ///< measured anew; places count from `low`
+  glm::ivec3 low{0};                               ///< of the box, in the field's bricks; may be before the first one
+  NodeBricks bricks{};                             ///< those measured again; their places count from `low`
   std::vector<std::vector<std::uint32_t>> near{};  ///< by brick of the box: stretches that may lie within_mm of it
   std::vector<float> f{};                          ///< of the nodes of `bricks`
-  std::vector<float> before_mm{};                  ///< likewise: the distance as it was
-  std::vector<Vec3f> closest{}, kept{};            ///< on the new surface; on the old one where it is still there
-  std::vector<Vec3f> lost{};                       ///< points of the old surface that may have gone
-  std::vector<float> mm{};                         ///< likewise: the distance as it is now
+  std::vector<float> before_mm{};                  ///< likewise: the old distance
+  std::vector<Vec3f> closest{}, kept{};  ///< on the new surface; on the old one if that point is still on the surface
+  std::vector<Vec3f> lost{};             ///< points of the old surface that may be gone
+  std::vector<float> mm{};               ///< likewise: the new distance
 
   std::size_t box_at(const glm::ivec3& place) const {
     const glm::ivec3& n = bricks.lattice.bricks;
@@ -47,7 +47,7 @@ struct Patch {
     const std::int32_t slot = old.near.slot_at(at.x, at.y, at.z);
     return slot < 0 ? nullptr : old.brick[static_cast<std::size_t>(slot)];
   }
-  /// Whether a point of the lattice (mm along its axes from the box) lies where the surface may change.
+  /// Whether a point of the lattice (mm along its axes from the box) is where the surface may change.
   bool is_touched(const Vec3f& at) const {
     const glm::ivec3 place(glm::floor(Vec3(at) / (bricks.lattice.spacing * static_cast<double>(NodeBricks::edge))));
     if (!holds(place)) return false;
