@@ -39,13 +39,13 @@ struct FilterType {
   std::string (*in_words)(const Filter& filter) = nullptr;
   /// Filters the rescaled values of one slice (CV_32F).
   cv::Mat (*in_slice)(const cv::Mat& values, const Geometry& geometry, const Filter& filter) = nullptr;
-  /// Variance of the blur along a unit direction, mm^2. Null if the filter keeps edges.
+  /// Variance of its blur along a unit direction, mm^2; null if edges stay.
   double (*blur)(const Geometry& geometry, const Filter& filter, const Vec3& direction) = nullptr;
 };
 
 /// All types of filter.
 std::span<const FilterType* const> filter_types();
-/// Null if no type has that name.
+/// Null if there is none of that name.
 const FilterType* find_filter_type(std::string_view name);
 
 /// "Gaussian filter of 1 mm"; "no filter".

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Fetches studies and series from an archive into a folder: by C-GET, or by C-MOVE to a storage service of our own,
-/// which listens only during the fetch.
+/// Fetches studies and series from an archive into a folder: by C-GET, or by C-MOVE to our own storage service, which
+/// listens only during the fetch.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct FetchProgress {
   int expected = -1;  ///< number of images by the archive's count; -1: unknown
 };
 
-/// Called with the progress so far, at least once a second, on the thread that called fetch(). Returning false cancels.
+/// Called with the progress at least once a second, on the thread that called fetch(). Returns false to cancel.
 using FetchWatcher = std::function<bool(const FetchProgress&)>;
 
 struct FetchedSeries {
@@ -39,12 +39,12 @@ struct Fetched {
   std::size_t files = 0;
   std::uint64_t bytes = 0;
   bool complete = true;        ///< false: the archive could not send all of it
-  std::vector<Text> warnings;  ///< what was not sent, and why
+  std::vector<Text> warnings;  ///< what is missing, and why; in the user's words
 };
 
-/// Fetches studies or series, by their UIDs, into `folder`. The folder is made if it does not exist, and only its owner
-/// can read it. Each series gets a subfolder; we choose all names. Throws Cancelled if the watcher returned false, and
-/// ArchiveError otherwise; then no files are left.
+/// Fetches the studies or series with these UIDs into `folder`. A missing folder is made, readable by its owner alone.
+/// Each series gets a subfolder, and its files get names of our own. Throws Cancelled if the watcher returns false, and
+/// ArchiveError for every other failure; a fetch that throws leaves no files.
 Fetched fetch(const Archive& archive, const std::vector<std::string>& uids, const std::filesystem::path& folder,
               const FetchLimits& limits = {}, const FetchWatcher& watcher = {});
 

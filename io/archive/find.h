@@ -1,6 +1,6 @@
 #pragma once
 
-/// Searches an archive for studies by patient, id, date, modality and description, and for their series.
+/// Queries an archive: studies by patient, id, date, modality and description, and their series.
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace palpate::io {
 
-/// What to search for. An empty text matches everything. Texts are UTF-8; * and ? are the archive's wildcards.
+/// An empty field matches anything. Texts are UTF-8; * and ? are the archive's wildcards.
 struct ArchiveQuery {
-  std::string patient;      ///< part of the patient's name
-  std::string patient_id;   ///< the whole id
-  std::string date;         ///< YYYYMMDD, YYYYMMDD-YYYYMMDD, -YYYYMMDD or YYYYMMDD-
+  std::string patient;      ///< part of the name
+  std::string patient_id;   ///< all of it
+  std::string date;         ///< YYYYMMDD, YYYYMMDD-YYYYMMDD, or a range open on one side
   std::string modality;     ///< CT, MR, ...
   std::string description;  ///< part of the study's description
   std::size_t most_studies = 100;
@@ -33,24 +33,24 @@ struct ArchivedStudy {
 
 struct Found {
   std::vector<ArchivedStudy> studies;  ///< the latest first
-  bool more = false;                   ///< the archive holds more than the limit
+  bool more = false;                   ///< the archive holds more studies than were asked for
 };
 
 /// C-FIND, study root. Throws ArchiveError, and Cancelled if keep_going returns false.
 Found find(const Archive& archive, const ArchiveQuery& query, const KeepGoing& keep_going = {});
 
-/// The series of a study that was found without them, ordered by number. Throws as find() does.
+/// The series of a study that was found without its series, by number. Throws as find() does.
 std::vector<ArchivedSeries> find_series_of(const Archive& archive, const std::string& study_uid,
                                            const KeepGoing& keep_going = {});
 
-/// A study, or a series of one.
+/// A study, or one series of it.
 struct Wanted {
   std::string study_uid;
   std::string series_uid;  ///< empty: the whole study
   int images = -1;         ///< number of images by the archive's count; -1: unknown
 };
 
-/// The study or the series of a UID. Throws ArchiveError if the archive holds neither.
+/// The study or series with a UID. Throws ArchiveError if the archive holds neither.
 Wanted find_uid(const Archive& archive, const std::string& uid, const KeepGoing& keep_going = {});
 
 }  // namespace palpate::io

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Receives the objects of a fetch and moves them into the folder. Shared by C-GET and our storage service; not
-/// installed.
+/// Writes the images of a fetch into its folder. Used by C-GET and by our storage service. Not installed.
 
 #include <atomic>
 #include <map>
@@ -18,31 +17,31 @@ namespace palpate::io {
 
 class Inbox {
  public:
-  /// Makes the folder, and in it a hidden one for the files until all have been received. Throws ArchiveError that
-  /// names the folder.
+  /// Makes the folder and a hidden one in it, which holds the files until all have arrived. Throws ArchiveError naming
+  /// the folder.
   Inbox(const std::filesystem::path& folder, const FetchLimits& limits);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
-  /// Removes the files that finish() has not moved, and the folder if it was made here and is empty.
+  /// Removes files that finish() has not moved, and the folder if it was made here and is empty.
   ~Inbox();
 
-  /// Which objects are accepted from now on.
+  /// Sets the study or series that is accepted from now on.
   void expect(const Wanted& wanted);
 
   /// Reads the dataset that follows a C-STORE request, and returns the status to answer with. Throws ArchiveError if
-  /// the disk is full or a limit is exceeded, and Cancelled if keep_going returns false; then the association must be
-  /// aborted, since its dataset was not read to its end. `broken` is set if the connection breaks.
+  /// the disk is full or a limit is passed, and Cancelled if keep_going returns false. The association must then be
+  /// aborted, because its dataset was not read to the end. `broken` reports a connection that broke.
   std::uint16_t store(T_ASC_Association& association, Watch& watch, int silence_s, const Command& command,
                       const KeepGoing& keep_going, OFCondition& broken);
 
   std::size_t files() const noexcept { return files_.load(std::memory_order_relaxed); }
   std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
-  /// Bytes of all datasets, including the one that is being received and those that are not kept.
+  /// Of all datasets, including the one being received and those not kept.
   std::uint64_t received_bytes() const noexcept { return received_bytes_.load(std::memory_order_relaxed); }
   /// The number of objects of other studies or series, which were not kept.
   std::size_t unasked() const noexcept { return unasked_.load(std::memory_order_relaxed); }
 
-  /// Moves all files that were received to their places.
+  /// Moves all received files to their places.
   std::vector<FetchedSeries> finish();
 
  private:

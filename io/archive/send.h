@@ -1,6 +1,6 @@
 #pragma once
 
-/// Stores files in an archive (C-STORE): marks and measurements are sent back to where the scan came from.
+/// Stores files in an archive (C-STORE), for example marks and measurements beside their scan.
 
 #include <filesystem>
 #include <functional>
@@ -17,14 +17,14 @@ struct NotSent {
 };
 
 struct Sent {
-  std::size_t files = 0;          ///< number of files that the archive accepted
+  std::size_t files = 0;          ///< files that the archive accepted
   std::vector<NotSent> not_sent;  ///< files that it refused, or that are not DICOM
   std::vector<NotSent> warned;    ///< accepted with a warning (PS3.4 B.2.3: changed, or with elements left out)
 };
 
-/// Sends the files as they are, in their own encoding. Throws ArchiveError if there is no association or it breaks, and
-/// Cancelled if `progress` returns false. `progress` is called with the number of files done, before each file and once
-/// a second while the archive does not answer. Files that the archive has accepted by then stay there.
+/// Sends the files in their own encoding. Throws ArchiveError if there is no association or it breaks, and Cancelled if
+/// `progress` returns false. `progress` gets the number of files done, before each file and once a second while the
+/// archive does not answer. Files that the archive has accepted by then stay there.
 Sent send(const Archive& archive, const std::vector<std::filesystem::path>& files,
           const std::function<bool(std::size_t done)>& progress = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Our storage service (SCP), to which an archive sends the objects that a C-MOVE requested. It listens for as long as
-/// the object lives, on one address, and accepts objects from the archive's AE title only. Not installed.
+/// Our storage service (SCP), which receives the images of a C-MOVE. It listens on one address for as long as the
+/// object exists, and accepts the archive's AE title alone. Not installed.
 
 #include <atomic>
 #include <exception>
@@ -16,16 +16,16 @@ namespace palpate::io {
 
 class StoreServer {
  public:
-  /// Listens. Throws ArchiveError if it cannot listen on the address and port.
+  /// Starts to listen. Throws ArchiveError if the address or the port cannot be used.
   StoreServer(const Archive& archive, Inbox& inbox);
   StoreServer(const StoreServer&) = delete;
   StoreServer& operator=(const StoreServer&) = delete;
   /// Stops listening and ends all associations.
   ~StoreServer();
 
-  /// Throws the error that ended it, such as a full disk or a limit.
+  /// Rethrows the error that ended it: a full disk or a passed limit. Otherwise does nothing.
   void rethrow();
-  /// The AE titles that were rejected, in words; empty if none was.
+  /// The AE titles that were refused, in words; empty if there are none.
   std::string turned_away();
 
  private:

@@ -18,22 +18,22 @@
 
 namespace palpate::io {
 
-constexpr long maximum_pdu = 65536;  ///< bytes of a message that we accept in one part
+constexpr long maximum_pdu = 65536;  ///< bytes: the largest PDU that we accept
 
-/// DCMTK's layer for one connection, which also remembers the connection's socket.
+/// DCMTK's transport layer for one connection; it also remembers the connection's socket.
 struct Transport {
   std::unique_ptr<DcmTransportLayer> layer;
   int socket = -1;           ///< of the latest connection; DCMTK closes it
-  bool names_other = false;  ///< the peer's certificate is for another machine than the archive's
+  bool names_other = false;  ///< the peer's certificate is for a machine that is not the archive's
 };
 
-/// For the requestor's side (NET_REQUESTOR) or the acceptor's (NET_ACCEPTOR). As a requestor, we require that the
-/// peer's certificate is for its machine (RFC 6125). As an acceptor, we check only the certificate's authority, and the
-/// AE title later. Throws ArchiveError that names the certificate or key that cannot be used.
+/// For the side that requests the association (NET_REQUESTOR) or accepts it (NET_ACCEPTOR). As requestor, the peer's
+/// certificate must be for its host (RFC 6125). As acceptor, only the certificate's authority is checked here; the
+/// peer's AE title is checked later. Throws ArchiveError naming a certificate or key that cannot be used.
 std::unique_ptr<Transport> make_transport(const Archive& archive, T_ASC_NetworkRole role);
 
-/// Shuts a socket down if no whole part of a message has come for a while. Without it, a peer that sends a byte now and
-/// then could keep a reader waiting for ever, since DCMTK's time-outs start anew with every byte.
+/// Shuts a socket down after a while without a complete message part. DCMTK's time-outs restart with every byte, so a
+/// peer that sends a byte now and then could hold a reader for ever.
 class Watch {
  public:
   Watch(int socket, int silence_s);
@@ -41,7 +41,7 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch();
 
-  /// A whole part of a message has been received or sent.
+  /// To be called when a complete message part was received or sent.
   void heard() noexcept { last_.store(std::chrono::steady_clock::now(), std::memory_order_relaxed); }
   bool ended() const noexcept { return ended_.load(std::memory_order_relaxed); }
   /// Ends the connection at once.

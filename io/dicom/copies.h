@@ -1,6 +1,6 @@
 #pragma once
 
-/// Copies of the same image.
+/// Images that are present more than once.
 
 #include <vector>
 
@@ -9,9 +9,9 @@
 
 namespace palpate::io::internal {
 
-/// Drops an image that another file also holds: the same SOP instance UID, place and time. A readable copy is kept. If
-/// both are readable and their pixels differ, the one that is kept gets a remark. Files with the same SOP instance UID
-/// at different places are different images: both are kept, with a remark.
+/// Drops copies of an image: files with the same SOP instance UID, position and time. A readable copy is kept. If both
+/// are readable and their pixels differ, the kept one gets a remark. Files with one SOP instance UID at different
+/// positions are different images: both are kept, with a remark.
 std::vector<FileHeader> drop_copies(std::vector<FileHeader> files, std::vector<SkippedFile>& skipped);
 
 }  // namespace palpate::io::internal

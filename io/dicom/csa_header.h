@@ -9,7 +9,7 @@
 
 namespace palpate::io::internal {
 
-/// The numbers under a name; empty if the header is damaged, lacks the name or has no numbers there.
+/// The numbers under a name; empty if the header is damaged, lacks the name or holds no numbers for it.
 std::vector<double> csa_numbers(std::span<const std::byte> header, std::string_view name);
 
 }  // namespace palpate::io::internal

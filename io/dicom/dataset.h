@@ -16,7 +16,7 @@ class DcmSequenceOfItems;
 
 namespace palpate::io::internal {
 
-/// Where a file's dataset begins and how it is written.
+/// The position and encoding of a file's dataset.
 struct DatasetStart {
   std::uint64_t at = 0;
   Encoding encoding;
@@ -24,23 +24,23 @@ struct DatasetStart {
   std::string transfer_syntax;  ///< UID
 };
 
-/// Reads preamble and file meta information (PS3.10 7.1); files without them are recognised by their first element.
-/// Throws DicomError ("not a DICOM file", "empty file") for all other files, so that a text or a picture is not parsed
-/// as thousands of attributes.
+/// Reads preamble and file meta information (PS3.10 7.1); files without them are recognized by their first element.
+/// Throws DicomError ("not a DICOM file", "empty file") for all other files, because a parser would read a text or
+/// picture as thousands of attributes.
 DatasetStart find_dataset(const InputFile& file);
 
-/// A deflated dataset, which is inflated while it is read.
+/// The uncompressed bytes of a deflated dataset, inflated as they are read.
 std::unique_ptr<ByteSource> inflated(const std::filesystem::path& path, const DatasetStart& start);
 
-/// Reads the wanted attributes before the pixel data into `dataset`, after checks that this is safe. Returns where the
-/// pixel data begins (in the inflated dataset, if it is deflated), or nothing if there is no pixel data. Throws
-/// DicomError.
+/// Checks that the part before the pixel data is safe to parse, then reads the wanted attributes into `dataset`.
+/// Returns the position of the pixel data (in the inflated dataset, if it is deflated); nothing if there is none.
+/// Throws DicomError.
 std::optional<PixelElement> parse_header(const InputFile& file, const std::filesystem::path& path,
                                          const DatasetStart& start, DcmDataset& dataset,
                                          bool (*wants)(std::uint32_t tag) = is_asked_for);
 
-/// Reads these bytes, the value of an attribute without tag and length, as a sequence in implicit VR, little endian
-/// (PS3.5 6.2.2). Null if they are not a sequence.
+/// The sequence in a value that was written without its VR (implicit VR, little endian; PS3.5 6.2.2). `value` excludes
+/// tag and length. Null if the bytes are no sequence.
 std::unique_ptr<DcmSequenceOfItems> sequence_in(std::span<const std::byte> value);
 
 }  // namespace palpate::io::internal

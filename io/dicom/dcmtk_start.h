@@ -4,11 +4,11 @@ class DcmDataDictionary;
 
 namespace palpate::io::internal {
 
-/// Must be called before any other use of DCMTK, from any thread. Registers its decoders, silences its log (which names
+/// Must be called before any other use of DCMTK, from any thread: registers its decoders, silences its log (which names
 /// files and attributes) and checks its data dictionary. Throws DicomError if the dictionary is missing.
 void start_dcmtk();
 
-/// Throws DicomError for a dictionary without entries: implicit-VR attributes would silently lose their types.
+/// Throws DicomError for a dictionary without entries: implicit-VR attributes would lose their types without an error.
 void check_dictionary(const DcmDataDictionary& dictionary, bool loaded);
 
 }  // namespace palpate::io::internal

@@ -1,8 +1,8 @@
 #pragma once
 
-/// One compressed frame -> stored values. JPEG by DCMTK's IJG codecs, JPEG-LS by CharLS, JPEG 2000 by OpenJPEG, RLE by
-/// ourselves, deflated frames by zlib: the decoders for JPEG-LS and RLE inside DCMTK 3.6.7 write beyond their buffers
-/// on damaged streams.
+/// Decodes compressed frames to stored values: JPEG with DCMTK's IJG codecs, JPEG-LS with CharLS, JPEG 2000 with
+/// OpenJPEG, deflated frames with zlib, RLE with our own decoder. DCMTK 3.6.7's decoders for JPEG-LS and RLE write
+/// beyond their buffers on damaged streams.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,35 +18,35 @@ namespace palpate::io::internal {
 /// Whether images in this encapsulated transfer syntax can be decoded.
 bool can_decode(const std::string& transfer_syntax);
 
-/// Whether a frame in this syntax is packed native bytes, with any number of bits a pixel. Other syntaxes have up
-/// to 16.
+/// Whether a frame in this syntax is packed native bytes, with pixels of any number of bits. Pixels of other syntaxes
+/// have up to 16 bits.
 bool is_packed(const std::string& transfer_syntax);
 
-/// Throws DicomError if `bytes` bytes of this syntax are too few for so many frames of that format. No coder packs
-/// pixels more densely than the bound that is used here, so a small file that claims 60000 rows costs no memory.
+/// Throws DicomError if `bytes` of this syntax cannot hold so many frames of that format. No coder packs pixels more
+/// densely than the bound used here; so a small file whose header claims 60000 rows takes no memory.
 void check_density(const std::string& transfer_syntax, const PixelFormat& format, std::size_t frames,
                    std::uint64_t bytes);
 
-/// Why pixels are refused if can_decode() does not know their syntax. Names the compression.
+/// Why pixels are refused whose syntax can_decode() does not accept; names the compression.
 Text why_not_decoded(const std::string& transfer_syntax);
 
-/// Throws DicomError if deflated data would become so large that the file is an attack or damaged: more than 256 MiB
-/// and 50 times the file, or more than 8 GiB. `bytes_out`: the claimed size. `bytes_in`: the file's size.
+/// Throws DicomError if deflated data would inflate to an implausible size: more than 256 MiB and 50 times the file, or
+/// more than 8 GiB. `bytes_out` is the claimed size, `bytes_in` the file's.
 void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in);
 
-/// Decodes one frame: `values` holds rows * columns. Returns, in words for the user, how the stream departs
-/// from its standard where that costs no pixel; empty if it does not. Throws DicomError with a reason if the stream is
-/// damaged or has another size than the header says.
+/// Decodes one frame: `values` holds rows * columns. Returns a breach of the standard in the stream that costs no
+/// pixels, in words for the user; empty if there is none. Throws DicomError with the reason if the stream is damaged or
+/// the image's size is not that of the header.
 Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
                   std::span<std::uint16_t> values);
 
-/// The native bytes of a frame, little endian, of a syntax that is_packed(): RLE (PS3.5 annex G), or deflated (A.4.13).
-/// Throws DicomError if the stream is damaged or has another size than the header says.
+/// The native bytes of a frame, little endian, in a syntax that is_packed(): RLE (PS3.5 annex G) or deflated (A.4.13).
+/// Throws DicomError if the stream is damaged or its size is not that of the header.
 std::vector<std::byte> unpack_frame(const std::string& transfer_syntax, const PixelFormat& format,
                                     std::span<const std::byte> bytes);
 
-// The decoders of each family, as decode_frame(). Samples are as the stream holds them: bits that the format does not
-// store and signs are left to the caller.
+// The decoders of each family, as decode_frame(). Samples are as in the stream: the caller handles signs and removes
+// bits that are not stored.
 Text decode_jpeg(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 Text decode_jpeg_ls(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
 Text decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes, std::span<std::uint16_t> values);
@@ -59,7 +59,7 @@ void put_little_endian(const PixelFormat& format, std::span<const std::byte> byt
 std::vector<std::byte> unpack_rle(const PixelFormat& format, std::span<const std::byte> bytes);
 std::vector<std::byte> inflate_frame(const PixelFormat& format, std::span<const std::byte> bytes);
 
-/// The contents of a JPEG stream's SOF marker (ISO 10918-1 annex B).
+/// The format in the SOF marker of a JPEG stream (ISO 10918-1 annex B).
 struct JpegFrame {
   int columns = 0;
   int rows = 0;

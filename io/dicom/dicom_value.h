@@ -1,7 +1,7 @@
 #pragma once
 
-/// Attribute values out of a DCMTK item, with nothing made up: DCMTK's own findAndGetFloat64 writes 0 when it fails,
-/// and its text-to-number conversion is not correctly rounded.
+/// Attribute values of a DCMTK item, without invented ones: DCMTK's own findAndGetFloat64 writes 0 when it fails, and
+/// its conversion from text to number is not correctly rounded.
 
 #include <optional>
 #include <string>
@@ -12,11 +12,10 @@ class DcmTagKey;
 
 namespace palpate::io::internal {
 
-/// The whole value of a text attribute (components separated by backslashes), without trailing padding. Empty if
-/// absent.
+/// All values of a text attribute (separated by backslashes), without trailing padding; empty if absent.
 std::string text_of(DcmItem& item, const DcmTagKey& tag);
 
-/// The values of a numeric attribute (DS, IS or binary). Empty if absent, or if one of them is not a finite number.
+/// The values of a numeric attribute (DS, IS or binary). Empty if absent or if one of them is not a finite number.
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag);
 
 /// The first value of a numeric attribute.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The part of a file's header that is needed to group, place and decode its images.
+/// The attributes of one file that are needed to group, place and decode its images.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace palpate::io::internal {
 
-/// Where one image lies in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing).
+/// The position of one image in the patient (ImagePositionPatient, ImageOrientationPatient, PixelSpacing).
 struct Placement {
   Vec3 position{0};           ///< mm, center of the first pixel
   Vec3 direction_i{1, 0, 0};  ///< unit, along a row
@@ -29,11 +29,11 @@ struct Placement {
   double spacing_j = 1;       ///< mm between rows
 };
 
-/// From the attributes' values (3, 6 and 2 of them, in DICOM's order); nothing if they are not a valid placement.
+/// From the values of these attributes (3, 6 and 2 of them, in DICOM's order); nothing if they are not valid.
 std::optional<Placement> make_placement(const std::vector<double>& position, const std::vector<double>& orientation,
                                         const std::vector<double>& spacing);
 
-/// What may distinguish images at one position, in order of precedence.
+/// Attributes that may distinguish images at one position, the most reliable first.
 enum class Label {
   image_type,
   kernel,
@@ -47,10 +47,10 @@ enum class Label {
   acquisition
 };
 constexpr std::size_t label_count = 10;
-/// One text for each label; numbers as text. Empty if unknown.
+/// One text for each label, numbers as text; empty if unknown.
 using Labels = std::array<std::string, label_count>;
 
-/// A phase-contrast image: the speed along a direction is slope * stored + intercept, m/s.
+/// The velocity encoding of a phase-contrast image: the speed along a direction is slope * stored + intercept, m/s.
 struct VelocityEncoding {
   Vec3 direction{0};  ///< unit, patient axes
   double slope = 0;
@@ -88,8 +88,8 @@ struct PixelFormat {
 
 enum class PixelCoding { native, deflated, encapsulated };
 
-/// A modality look-up table (PS3.3 C.11.1): the value that each stored value stands for. Stored values below the first
-/// entry have the first entry's value, and those above the last one have the last one's.
+/// A modality look-up table (PS3.3 C.11.1): maps stored values to values. Stored values before its first or after its
+/// last entry get that entry's value.
 struct ModalityTable {
   double first = 0;  ///< the stored value of its first entry
   std::vector<float> values;
@@ -102,16 +102,16 @@ struct ModalityTable {
 
 struct FileHeader {
   std::filesystem::path
-      path;  ///< as it is shown to a user; for a file in an archive, the archive's path and its path inside
-  std::filesystem::path stored_at;  ///< where its bytes are
-  /// Keeps temporary files alive; null for files that are not temporary.
+      path;  ///< as shown to the user; for a file in an archive file, the archive's path and the path inside
+  std::filesystem::path stored_at;  ///< the file with its bytes
+  /// Keeps that file in existence; null for a file of the user's.
   std::shared_ptr<const void> keeper;
   std::string transfer_syntax;     ///< UID
   std::string sop_class;           ///< UID
   std::string sop_instance;        ///< UID
   std::string series;              ///< UID
   std::string study;               ///< UID
-  std::string frame_of_reference;  ///< UID; empty if the file does not say
+  std::string frame_of_reference;  ///< UID; empty if missing
   std::string modality;
   std::string description;
   std::string image_type;  ///< all its values, separated by backslashes
@@ -119,7 +119,7 @@ struct FileHeader {
   Series::Details details;
   Series::Identity identity;
   double instance_number = 0;
-  std::string acquisition_time;  ///< date and time; used only for comparison
+  std::string acquisition_time;  ///< date and time, for comparison only
   std::string content_time;      ///< as acquisition_time
   double thickness = 0;          ///< SliceThickness, mm; 0 if unknown
 
@@ -127,20 +127,20 @@ struct FileHeader {
   int columns = 0;  ///< of one image (of a tile of a mosaic)
   int rows = 0;
   std::optional<std::pair<double, double>> padding;  ///< stored values, both ends included
-  std::shared_ptr<const ModalityTable> table;        ///< used instead of the rescale; null if there is none
-  /// Whether the padding value does not fit into BitsStored, so that whole words of BitsAllocated are compared.
+  std::shared_ptr<const ModalityTable> table;        ///< replaces the rescale; null if there is none
+  /// Whether the padding value does not fit into BitsStored and takes all of BitsAllocated.
   bool padding_is_wide() const;
 
   PixelCoding coding = PixelCoding::native;
   bool big_endian = false;
-  bool swapped_words = false;                    ///< 8-bit pixels in big-endian 16-bit words
-  bool swapped_wholes = false;                   ///< big-endian 32-bit integers, not swapped word by word
-  DatasetStart start;                            ///< where the dataset is
-  std::uint64_t pixels_at = 0;                   ///< first byte of the pixels, in the file or in the inflated dataset
+  bool swapped_words = false;   ///< 8-bit pixels in big-endian 16-bit words
+  bool swapped_wholes = false;  ///< big-endian 32-bit integers that were swapped as wholes, not word by word
+  DatasetStart start;           ///< where the dataset is
+  std::uint64_t pixels_at = 0;  ///< the pixels' offset in the file, or in the inflated dataset
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
 
   std::vector<Plane> planes;
-  std::vector<Text> remarks;  ///< what a user should know about the series; the same words for all of its files
+  std::vector<Text> remarks;  ///< what a user should know of its series; its files share the same words
   Text unfit;                 ///< why its images cannot be part of a volume (color, no position); empty if they can
   Text defect;                ///< why its pixels cannot be read (truncated); empty if they can
 };

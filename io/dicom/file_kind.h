@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a file is, in a radiologist's words.
+/// The kind of a file, in a radiologist's words.
 
 #include <string>
 
@@ -16,7 +16,7 @@ class NotAnImage : public DicomError {
 };
 
 /// "structured report", "scout", "segmentation", ... `sop_class` (UID) and `image_type` are empty if the file is not
-/// DICOM; `reason` is why it was set apart.
+/// DICOM; `reason` is why the file was skipped.
 std::string kind_of_file(const std::string& sop_class, const std::string& image_type, const std::string& reason);
 
 }  // namespace palpate::io::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Encapsulated (compressed) pixel data: DICOM PS3.5 annex A.4. A frame is one fragment or several in a row.
+/// Encapsulated (compressed) pixel data: DICOM PS3.5 annex A.4. A frame is one fragment or several consecutive ones.
 
 #include <cstdint>
 #include <vector>
@@ -15,14 +15,14 @@ struct Fragment {
 };
 
 struct Encapsulated {
-  std::vector<std::vector<Fragment>> frames;  ///< the fragments of each
-  bool has_end = true;  ///< whether the item that ends them is there; the fragments are complete without it
+  std::vector<std::vector<Fragment>> frames;  ///< the fragments of each frame
+  bool has_end = true;  ///< whether the item that ends the fragments is present; they are usable without it
 };
 
-/// The fragments of each frame. `pixels_at` is where the value of PixelData starts, at the basic offset table. Frames
-/// are one fragment each if the numbers agree; else the offset table divides them; else a frame begins with each
-/// fragment that begins a JPEG, JPEG-LS or JPEG 2000 stream. Throws DicomError if the file is truncated or the
-/// fragments do not give that many frames.
+/// The fragments of each frame. `pixels_at` is the offset of PixelData's value, which starts with the basic offset
+/// table. Frames are separated by one fragment each; else by the offset table; else by the fragments that start a new
+/// JPEG, JPEG-LS or JPEG 2000 stream. Throws DicomError if the file is truncated or the fragments do not make up that
+/// many frames.
 Encapsulated find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames);
 
 /// The bytes of a frame, its fragments joined.

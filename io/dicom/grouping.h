@@ -1,6 +1,6 @@
 #pragma once
 
-/// Groups the headers of files into series.
+/// Groups files into series by their headers.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace palpate::io::internal {
 
 /// Groups the images of all files by series UID (of one study and patient), orientation, size and pixel spacing, sorts
-/// them by position, and describes the result. Files that end up in no series are named in `skipped`.
+/// them by position, and describes the series. `skipped` gets the files that belong to no series.
 std::vector<Series> group_into_series(std::vector<FileHeader> headers, std::vector<SkippedFile>& skipped);
 
 /// "axial", "coronal", "sagittal" (within 20 degrees) or "oblique".

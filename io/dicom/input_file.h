@@ -7,7 +7,7 @@
 
 namespace palpate::io::internal {
 
-/// A file open for reading at any place, closed with its owner. Safe to read from several threads.
+/// An open file with reads at any offset, closed by the destructor. Several threads may read from it.
 class InputFile {
  public:
   /// Throws DicomError if the file cannot be opened.

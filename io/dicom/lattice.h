@@ -1,6 +1,6 @@
 #pragma once
 
-/// The heights of a stack's slices, and the position of two stacks relative to each other.
+/// The heights of a stack's slices, and the relation of two stacks.
 
 #include <vector>
 
@@ -8,24 +8,24 @@
 
 namespace palpate::io::internal {
 
-/// Heights along the normal, mm, ascending, each once.
+/// Distinct heights along the normal, mm, ascending.
 struct Lattice {
   std::vector<double> heights;
-  double step = 0;    ///< median step; 0 for a single slice
-  bool even = false;  ///< nearly all steps equal `step`, or a small multiple of it where slices are missing
+  double step = 0;    ///< the median step; 0 if there is one slice
+  bool even = false;  ///< nearly all steps are equal to `step`, or to a small multiple of it where slices are missing
 
   bool operator==(const Lattice&) const = default;
 };
 
-/// Heights along the normal of `reference`. Images closer than `same_place` (mm) share a height.
+/// Heights along the normal of `reference`. Heights that differ by less than `same_place` (mm) count as one.
 Lattice lattice_of(const SeriesSource& source, const std::vector<SeriesSource::Slice>& slices,
                    const Placement& reference, double same_place);
 
 struct Overlap {
-  std::size_t slices = 0;  ///< slices within the other stack's extent, of the stack that has fewer of them
-  bool coincide = false;   ///< most of these slices lie at a height of the other stack
-  bool shifted = false;    ///< each of the two stacks extends beyond the other
-  double distance = 0;     ///< mm, median distance from a slice to the nearest slice of the other stack
+  std::size_t slices = 0;  ///< of the stack with fewer slices inside the other's extent
+  bool coincide = false;   ///< most of these are at a slice of the other
+  bool shifted = false;    ///< each stack extends beyond the other
+  double distance = 0;     ///< mm, the median distance from a slice to the nearest of the other stack
 };
 
 Overlap overlap_of(const Lattice& a, const Lattice& b, double same_place);

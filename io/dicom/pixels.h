@@ -10,10 +10,10 @@
 
 namespace palpate::io::internal {
 
-/// Reads frames out of one file. Keeps the file open; one thread at a time.
+/// Reads frames of one file. Keeps the file open. Not safe for several threads at a time.
 class PixelReader {
  public:
-  /// `header` must outlive the reader. Throws DicomError if the file cannot be opened.
+  /// `header` has to live as long as the reader. Throws DicomError if the file cannot be opened.
   explicit PixelReader(const FileHeader& header);
 
   /// The stored values of a whole frame of the file (all tiles of a mosaic): rows * columns of them, sign extended.
@@ -21,8 +21,8 @@ class PixelReader {
   /// read as int16. Returns the words of decode_frame(). Throws DicomError with a reason that does not name the file.
   Text read(std::uint32_t frame, std::span<std::uint16_t> values);
 
-  /// The same for a frame with wide values (PixelFormat::is_wide), which is uncompressed, RLE or deflated: the stored
-  /// numbers. Throws DicomError as read().
+  /// The stored values of a frame with wide values (PixelFormat::is_wide); such frames are uncompressed, RLE or
+  /// deflated. Throws DicomError as read() does.
   void read_wide(std::uint32_t frame, std::span<double> values);
 
  private:
@@ -31,7 +31,7 @@ class PixelReader {
 
   const FileHeader& header_;
   InputFile file_;
-  // A deflated file is inflated once for frames that are read in their order.
+  // A deflated file is inflated once if its frames are read in order.
   std::unique_ptr<ByteSource> inflated_;
   std::uint64_t inflated_to_ = 0;
 };

@@ -26,7 +26,7 @@ std::string decimal(double number);
 /// One line of at most 64 characters (LO): without backslashes and control characters.
 std::string long_string(const std::string& utf8);
 
-/// The object as the bytes of a file. Throws DicomError if DCMTK refuses.
+/// The object as a file has it. Throws DicomError if DCMTK refuses.
 std::string bytes_of(DcmFileFormat& format, E_TransferSyntax syntax);
 
 /// Throws DicomError with DCMTK's reason.
@@ -38,7 +38,7 @@ struct SliceImage {
   std::uint32_t frame = 0;  ///< of a multi-frame file, from 1 on; else 0
 };
 
-/// One for each slice of the scan's frame, found by their positions. Throws DicomError if the scan is not DICOM.
+/// One for each slice of the scan's frame, found by their positions. Throws DicomError if the scan is no DICOM.
 std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geometry, int frame);
 
 /// Adds a code sequence with one item.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Messages (PS3.7) and their datasets, for an archive that violates the standard as no library would.
+/// Messages (PS3.7) and their datasets, for a test archive that breaks the rules as no library would.
 
 #include <cstdint>
 #include <map>
@@ -19,28 +19,28 @@ struct Request {
   Elements keys;
 };
 
-// Elements as text: of a command (implicit VR), and of a dataset (explicit VR with short lengths: all that a question
-// or an image here holds).
+// Elements as text: of a command (implicit VR), and of a dataset (explicit VR with short lengths, which is all that
+// these queries and images need).
 std::string element(std::uint32_t tag, const std::string& value);
 std::string field(std::uint32_t tag, const char* vr, const std::string& value);
 Elements parse_implicit(const std::string& text);
 Elements parse_explicit(const std::string& text);
 std::string uid_of(const std::string& text);  ///< without its padding
-/// The elements of a command behind their group length.
+/// The elements of a command, preceded by their group length.
 std::string with_length(const std::string& elements);
 
-/// An image of one element each for what names it; its pixels are left out.
+/// A dataset with the elements that identify an image, without pixels.
 std::string image(const std::string& instance, const std::string& study, const std::string& series);
 std::string store_command(const std::string& instance);
 
-// These write to a connected socket; the last one reads from it. They throw Gone if the peer has closed it.
+// Functions on a connected socket. They throw Gone if the peer has closed it.
 void write_message(int socket, int context, const std::string& command, const std::string& dataset = {});
 void respond(int socket, const Request& request, std::uint32_t status, const std::string& dataset = {},
              int completed = 0, int failed = 0);
-/// Sends an image, and returns the status of the answer.
+/// Sends an image; returns the status of the answer.
 std::uint32_t store(int socket, int context, const std::string& instance, const std::string& dataset);
 
-/// The presentation context that was proposed for the class. Throws Gone if none was.
+/// The presentation context proposed for the class. Throws Gone if there is none.
 int context_of(const std::map<int, std::string>& contexts, const std::string& sop_class);
 
 }  // namespace palpate::io::testing

@@ -35,7 +35,7 @@ class OddArchive {
     return static_cast<std::size_t>(std::distance(std::filesystem::recursive_directory_iterator(folder_.path()), {}));
   }
 
-  /// The refusal of a fetch. Checks that no files are left.
+  /// The message of a fetch that is refused; checks that the fetch leaves no files.
   std::string refused_fetch(const FetchLimits& limits = {}) {
     std::string said = "no refusal";
     try {

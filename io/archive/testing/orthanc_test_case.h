@@ -1,7 +1,7 @@
 #pragma once
 
-/// Shared by the tests against a real archive: Debian's Orthanc, filled with generated series by DCMTK's storescu. The
-/// expected results come from the files that were stored there and from DCMTK's own programs.
+/// Shared by the tests against a real archive: Debian's Orthanc, filled with generated series by DCMTK's storescu.
+/// Expected values are read from the source files and from the output of DCMTK's programs.
 
 #include <gtest/gtest.h>
 
@@ -23,14 +23,14 @@ struct Instance {
   std::string syntax;
 };
 
-/// All files in a folder, by SOP instance UID, read with DCMTK only.
+/// All images in a folder, by SOP instance UID, read with DCMTK alone.
 std::map<std::string, Instance> instances(const std::filesystem::path& folder);
 
 /// The message of the ArchiveError that `act` throws; "no refusal" if it throws none.
 std::string refusal(const std::function<void()>& act);
 
-/// Two archives with the same content, one of them with TLS. They are started by the first test that needs them. The
-/// tests are one suite in several files.
+/// Two archives with the same content, one of them with TLS; started by the first test that needs them. The tests of
+/// this suite are in several files.
 class OrthancTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite();
@@ -42,7 +42,7 @@ class OrthancTest : public ::testing::Test {
   static std::string uid_of(const std::string& series) {
     return instances(made_series() / series).begin()->second.series;
   }
-  /// Checks that the fetched files are the series, image by image and pixel by pixel.
+  /// Checks that the fetched series is the given one, image by image and pixel by pixel.
   static void expect_same(const std::string& series, const std::filesystem::path& fetched);
 
   static inline std::unique_ptr<FreshFolder> scratch_;

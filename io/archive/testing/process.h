@@ -1,6 +1,6 @@
 #pragma once
 
-/// A program that a test starts and ends.
+/// A child process of a test.
 
 #include <sys/types.h>
 
@@ -12,20 +12,20 @@ namespace palpate::io::testing {
 
 class Process {
  public:
-  /// Its stdout can be read line by line; its stderr goes to the file `log`, or is dropped if `log` is empty.
+  /// Its stdout can be read line by line. Its stderr goes to the file `log`, or is dropped if `log` is empty.
   explicit Process(const std::vector<std::string>& command, const std::filesystem::path& log = {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  /// Ends it: closes its input, then SIGTERM, then after 10 s SIGKILL.
+  /// Ends the process: closes its input, then SIGTERM, then after 10 s SIGKILL.
   ~Process();
 
-  /// Waits for the next line. Empty if the program ends or prints nothing for 10 s.
+  /// Waits for the next line; empty if the process ends or is silent for 10 s.
   std::string read_line();
-  /// All that it prints until it ends, for at most 10 s.
+  /// All output until the process ends, or for 10 s.
   std::string read_rest();
   pid_t id() const noexcept { return id_; }
   void signal(int number) const;
-  /// Waits for its end and returns its exit code, 128 + n for signal n.
+  /// Waits for the process to end and returns its exit code, or 128 + n for signal n.
   int wait();
 
  private:
@@ -35,7 +35,7 @@ class Process {
   std::string unread_;
 };
 
-/// A TCP port of this machine on which no program listens.
+/// A TCP port of this machine on which no program listens now.
 int free_port();
 /// Whether a program listens on a port of this machine.
 bool is_listening(int port);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Prints the requests to an archive line by line, so that a test can compare them with the standard.
+/// Prints the requests that an archive receives, line by line; a test compares them with the standard.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace palpate::io::testing {
 
-/// The body of an A-ASSOCIATE-RQ (PS3.8 9.3.2): both AE titles and the proposed contexts.
+/// The AE titles and the proposed contexts of an A-ASSOCIATE-RQ's body (PS3.8 9.3.2).
 void tell_association(const std::string& request);
 /// A command (PS3.7) and its keys, each on a line.
 void tell_command(const Elements& command, const Elements& keys);

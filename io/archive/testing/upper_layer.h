@@ -1,6 +1,6 @@
 #pragma once
 
-/// DICOM's upper layer (PS3.8), byte by byte, for an archive that violates the standard as no library would.
+/// DICOM's upper layer (PS3.8), byte by byte, for a test archive that breaks the rules as no library would.
 
 #include <chrono>
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace palpate::io::testing {
 
 struct Gone : std::runtime_error {
   explicit Gone(int pdu = 0) : std::runtime_error("the peer is gone"), type(pdu) {}
-  int type;  ///< type of the PDU that ended it; 0: none
+  int type;  ///< of the PDU that ended the connection; 0: none did
 };
 
 struct Pdu {
@@ -23,27 +23,27 @@ struct Pdu {
   std::string body;
 };
 
-// Numbers of so many bytes, in big-endian or little-endian order.
+// Numbers of `bytes` bytes, highest or lowest byte first.
 std::string big(std::uint32_t value, int bytes);
 std::string little(std::uint32_t value, int bytes);
 std::uint32_t number(const std::string& text, std::size_t at, int bytes, bool is_big);
 std::string even(std::string text, char pad = '\0');
 
-// Reads or writes all bytes, or throws Gone.
+// Writes all bytes; throws Gone if the peer has closed the socket.
 void write_all(int socket, const std::string& bytes);
 std::string read_all(int socket, std::size_t count);
 Pdu read_pdu(int socket);
 void write_pdu(int socket, int type, const std::string& body);
 
 std::string item(int type, const std::string& body);
-/// The items of a body from an offset on: type and content.
+/// The items of a body from the offset `at` on: type and content.
 std::vector<std::pair<int, std::string>> items(const std::string& body, std::size_t at);
-/// Accepts an association: each context with its first transfer syntax, or none of them. Returns the contexts' classes
-/// by number.
+/// Answers the request for an association: accepts each context with its first transfer syntax, or rejects all. Returns
+/// the class of each context, by number.
 std::map<int, std::string> accept(int socket, const std::string& request, bool agrees);
-/// A part of a message.
+/// A presentation data value (PDV): a fragment of a message.
 std::string pdv(int context, bool command, bool last, const std::string& bytes);
-/// Reads a command or a dataset, from its first PDU to its last, with a pause before each.
+/// A part of a message (command or dataset) from its first PDU to its last, with a pause before each PDU.
 std::string read_part(int socket, int& context, std::chrono::microseconds pause = {});
 
 }  // namespace palpate::io::testing
