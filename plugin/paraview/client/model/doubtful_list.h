@@ -1,6 +1,6 @@
 #pragma once
 
-/// The doubtful places of the outline that is corrected, and what has become of each.
+/// The doubtful places of the outline that is corrected, and the state of each.
 
 #include <functional>
 #include <optional>
@@ -13,7 +13,7 @@ namespace palpate::plugin {
 
 class DoubtfulList {
  public:
-  /// The distance of a place from the outline as it is felt now, mm; none while it is read or made.
+  /// The distance of a place from the felt outline, mm; none while the outline is being read or computed.
   using Outline = std::function<std::optional<double>(const io::Vec3& place)>;
   enum class Fate { doubtful, corrected, left };
 
@@ -27,14 +27,14 @@ class DoubtfulList {
     left_.clear();
     at_.reset();
   }
-  /// The most doubtful first; none while they are looked for.
+  /// The most doubtful first; none during the search.
   const std::optional<io::DoubtfulPlaces>& places() const { return places_; }
   Fate fate(std::size_t place) const;
-  /// The user has looked at it: it is right as it is.
+  /// The user accepts the outline at this place.
   void leave(std::size_t place) { left_.insert(place); }
-  /// The one that was gone to last.
+  /// The place visited last.
   std::optional<std::size_t> at() const { return at_; }
-  /// Null: there is no such place.
+  /// Null if there is no such place.
   const io::DoubtfulPlace* go_to(std::size_t place);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where hand and patient lie to each other: as the scene has it, and on the way there from the one before.
+/// The mapping between hand and patient, including its transition after a change.
 
 #include <utility>
 
@@ -10,17 +10,17 @@ namespace palpate::plugin {
 
 class FeltWorkspace {
  public:
-  /// At once.
+  /// Without a transition.
   void set(const modes::Workspace& workspace) { before_ = now_ = workspace; }
-  /// On the way from the present one; whether it is another.
+  /// Starts the transition to another workspace; returns whether it differs.
   bool change_to(const modes::Workspace& workspace) {
     before_ = std::exchange(now_, workspace);
     return before_ != now_;
   }
-  /// Nothing is shown on its way.
+  /// Ends the transition.
   void skip_change() { before_ = now_; }
   const modes::Workspace& now() const { return now_; }
-  /// `part`: TickRecord::change_part.
+  /// During the transition. `part`: TickRecord::change_part.
   modes::Workspace at(double part) const { return modes::between(before_, now_, part); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Texts of the models that ParaView's pipeline keeps, so that its undo, state files and traces hold every edit.
+/// Texts of the models, kept in ParaView's pipeline so that its undo, state files and traces hold every edit.
 
 #include <QObject>
 #include <QString>
@@ -15,16 +15,16 @@ class KeptText : public QObject {
  public:
   using QObject::QObject;
 
-  /// Whether there is a place for them.
+  /// Whether the pipeline has a place for the texts.
   virtual bool is_open() const = 0;
-  /// Makes a place that holds this scene; opened() follows. Does nothing if ParaView has no session.
+  /// Makes a place with this scene; opened() follows. Does nothing if ParaView has no session.
   virtual void open(const std::string& scene) = 0;
 
   /// Empty if there is none.
   virtual std::string text(const char* key) const = 0;
-  /// One step that can be undone, which ParaView's menu names `what`; where that is empty, none.
+  /// As one step that can be undone, named `what` in ParaView's menu; if `what` is empty, without a step.
   virtual void keep(const char* key, const std::string& text, const QString& what) = 0;
-  /// The same without a trace and without a step.
+  /// The same without trace and step.
   virtual void put(const char* key, const std::string& text) = 0;
 
   virtual bool can_undo() const = 0;
@@ -34,9 +34,9 @@ class KeptText : public QObject {
   virtual void forget_steps() = 0;
 
  signals:
-  /// The texts are in another place from now on.
+  /// From now on the texts are kept in another place.
   void opened();
-  /// A text may be another one, whoever has changed it: undo, a trace, the property panel, a state file.
+  /// A text may have changed, by undo, a trace, the property panel or a state file.
   void changed();
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's own mark button: it presses the stylus' button, so that a press is in the ticks, and a recording has it.
+/// The panel's mark button. It presses the stylus' button, so that ticks and recordings contain the press.
 
 #include <optional>
 #include <span>
@@ -19,17 +19,18 @@ class MarkButton {
     letting_go_ = false;
     live_.press(mark_button);
   }
-  /// Once a tick has had the press.
+  /// Releases the button after at least one tick has seen it pressed.
   void let_go() { letting_go_ = true; }
-  /// What is being pressed makes nothing.
+  /// Cancels a press without making a mark.
   void forget() {
     live_.press(0);
     presses_.drop();
     letting_go_ = false;
   }
-  /// Hand and patient are parted: what is pressed meanwhile makes nothing.
+  /// Hand and patient are separated: a press in progress makes no mark.
   void drop() { presses_.drop(); }
-  /// What a press of this button or of the stylus' own made, if it ended in this tick. `proxy_mm(tick)`: where it was.
+  /// The mark or path of a press of this button, or of the stylus' own, that ended in this tick. `proxy_mm(tick)`: the
+  /// proxy's position.
   template <typename ProxyMm>
   std::optional<MarkMade> follow(const TickRecord& tick, std::span<const PrimitiveRecord> shares,
                                  const modes::Scene& scene, const ProxyMm& proxy_mm) {

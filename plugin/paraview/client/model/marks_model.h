@@ -1,7 +1,7 @@
 #pragma once
 
-/// Owns the marks of the scan that is shown; views and list ask it. ParaView's pipeline keeps them beside the scene, so
-/// that undo, state files and traces hold them. The marks of other scans are kept there, too.
+/// Owns the marks of the scan that is shown; views and list query it. ParaView's pipeline keeps them beside the scene,
+/// so undo, state files and traces include them. It also keeps the marks of other scans.
 
 #include <QObject>
 #include <QString>
@@ -22,22 +22,22 @@ class MarksModel : public QObject {
 
   explicit MarksModel(KeptText& kept, QObject* parent = nullptr);
 
-  /// Of the scan that is shown.
+  /// The marks of the scan that is shown.
   const Marks& marks() const;
-  /// Another scan: its hash_of_series(); empty: none.
+  /// Sets the scan by its hash_of_series(); empty: none.
   void set_scan(const std::string& scan);
   bool has_scan() const { return !scan_.empty(); }
   const std::string& scan() const { return scan_; }
   const MarksOfScans& of_all_scans() const { return kept_; }
 
-  /// Those of all scans: a state file brings its own, or none.
+  /// Forgets the marks of all scans: a state file brings its own, or none.
   void forget();
 
-  /// One step that can be undone; `what` names it in ParaView's menu. Distances and angles are measured anew.
+  /// One step that can be undone; `what` names it in ParaView's menu. Distances and angles are computed again.
   void edit(const QString& what, const Change& change);
-  /// Adds what a press made, with a name.
+  /// Adds the result of a press, with a name.
   void add(const MarkMade& made);
-  /// Undoes the last step, of marks or of the scene.
+  /// Undoes the last step, whether of marks or of the scene.
   void undo() { in_pipeline_.undo(); }
 
  signals:
@@ -53,7 +53,7 @@ class MarksModel : public QObject {
   KeptText& in_pipeline_;
   MarksOfScans kept_;
   std::string scan_;
-  std::string text_;  // of the marks as the pipeline has them
+  std::string text_;  // of the marks, as in the pipeline
 };
 
 }  // namespace palpate::plugin

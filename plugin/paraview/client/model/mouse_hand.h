@@ -1,6 +1,6 @@
 #pragma once
 
-/// The hand of the simulated stylus, which mouse and keyboard move.
+/// The hand that holds the simulated stylus, moved by mouse and keyboard.
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -14,18 +14,18 @@ namespace palpate::plugin {
 
 class MouseHand {
  public:
-  /// Null: no simulated stylus is held.
+  /// Null: there is no simulated stylus.
   void hold(std::shared_ptr<device::SimulatedStylus> stylus);
   bool holds() const { return stylus_ != nullptr; }
   void move(const glm::dvec3& patient_mm, const modes::Workspace& workspace);
-  /// Where it was last put; none while it relaxes, or since the workspace is another.
+  /// Its last position; none while it relaxes, or after a change of the workspace.
   const std::optional<glm::dvec3>& place_mm() const { return place_mm_; }
   void forget_place() { place_mm_.reset(); }
-  /// It relaxes until nothing pushes it.
+  /// Lets the hand relax until no force acts on it.
   void let_go();
-  /// Once for each look at the ticks, with the force that the device was fed.
+  /// To be called at each poll, with the force on the device.
   void give_way(const TickRecord& tick, double force_n);
-  /// True: the mouse is used for something else, and does not take the stylus.
+  /// True: the mouse is used for something else and does not move the stylus.
   void keep_mouse_off(bool off) { mouse_off_ = off; }
   bool takes_mouse() const { return holds() && !mouse_off_; }
 

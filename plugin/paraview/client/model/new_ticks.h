@@ -1,7 +1,7 @@
 #pragma once
 
-/// The ticks that were written since the last look, one after the other, and the buttons that changed in any of them:
-/// a short press counts, though the thread that looks was busy.
+/// Reads the ticks written since the last poll, one after the other, and the buttons that changed in any of them. So a
+/// short press counts even if the polling thread was busy.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,9 +17,9 @@ class NewTicks {
     std::uint32_t pressed = 0, let = 0;
   };
 
-  /// Another session, whose first tick is the next.
+  /// Another session: continues with its first tick.
   void restart() { *this = {}; }
-  /// The same session begins anew: its ticks are counted from 0 again.
+  /// The same session has restarted, and counts its ticks from 0 again.
   void count_anew() { next_ = 0; }
   /// Calls `each()` with every new tick in `tick` and its primitives in `shares`.
   template <typename Each>

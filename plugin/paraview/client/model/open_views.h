@@ -1,6 +1,7 @@
 #pragma once
 
-/// The views of the scan that is shown. What is drawn in them follows this, and is never handed views by hand.
+/// The views of the scan that is shown. Layers that draw into views follow this object; no other code passes them
+/// views.
 
 #include <functional>
 #include <list>
@@ -19,20 +20,20 @@ enum class ViewKind { axial, sagittal, coronal, volume };
 struct ClinicalView {
   ViewKind kind = ViewKind::volume;
   pqRenderView* view = nullptr;
-  SliceView* slice = nullptr;                 ///< null: the volume's. Goes with the view
-  std::weak_ptr<PatientVolume> patient = {};  ///< the volume's, where the views have made it
+  SliceView* slice = nullptr;                 ///< null for the volume view. Deleted with the view
+  std::weak_ptr<PatientVolume> patient = {};  ///< of the volume view, once it exists
 };
 
-/// What lies over what, from below.
+/// Drawing layers, from bottom to top.
 enum class Layer { image, outlines, paths, marks, stylus };
 
-/// It outlives those that follow it.
+/// Must outlive its followers.
 class OpenViews {
  public:
   using Opened = std::function<void(const std::vector<ClinicalView>&)>;
   using SliceShown = std::function<void(SliceView&)>;
 
-  /// Its end ends what follow() began.
+  /// Its destructor ends the following.
   class Following {
    public:
     explicit Following(std::function<void()> end) : end_(std::move(end)) {}
@@ -49,11 +50,12 @@ class OpenViews {
   OpenViews& operator=(const OpenViews&) = delete;
   ~OpenViews() = default;
 
-  /// `opened` is called when others are open, and with none before they go; at once where some are. Followers of a
-  /// lower layer are called first, and leave last. `slice_shown` is called when a view shows another slice.
+  /// `opened` is called with the views when they open, without views before they close, and at once if some are open.
+  /// Followers of a lower layer are called first on opening, and last on closing. `slice_shown` is called when a view
+  /// shows another slice.
   [[nodiscard]] Following follow(Layer layer, Opened opened, SliceShown slice_shown = {});
 
-  /// The views of a scan, of which everything else is there already; empty: they are about to go.
+  /// The views of a scan that is otherwise complete; empty: they are about to close.
   void set(std::vector<ClinicalView> views);
   const std::vector<ClinicalView>& now() const { return views_; }
   /// A view shows another slice.

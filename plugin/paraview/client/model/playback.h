@@ -1,6 +1,6 @@
 #pragma once
 
-/// Plays a recording in the views: at its own pace, faster, slower, or from any place. Nothing is felt.
+/// Plays a recording in the views, at a chosen speed and from any position. No force is felt.
 
 #include <QElapsedTimer>
 
@@ -13,11 +13,12 @@ namespace palpate::plugin {
 
 class Playback {
  public:
-  /// The recording to play; null: none. It waits at its beginning, and is not visible before it is played or moved.
+  /// The recording to play; null: none. It starts paused at its beginning, and becomes visible when it is played or
+  /// moved.
   void set_session(std::shared_ptr<const RecordedSession> session);
   const std::shared_ptr<const RecordedSession>& session() const { return session_; }
 
-  /// Plays; from the beginning again if it has come to its end.
+  /// Plays; from the beginning if it is at its end.
   void play();
   void pause() { playing_ = false; }
   bool is_playing() const { return playing_; }
@@ -26,7 +27,7 @@ class Playback {
   void set_speed(double speed);
   double at_s() const { return at_s_; }
 
-  /// As far as it has come by now.
+  /// The status at the present position.
   SessionStatus look(const std::string& unit);
 
  private:

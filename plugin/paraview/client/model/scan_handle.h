@@ -1,7 +1,7 @@
 #pragma once
 
-/// The scan that is shown and felt: one handle for the reader, the views, the stylus and whatever else reads it, so
-/// that all of them mean the same series and the same frame.
+/// The scan that is shown and felt: one handle for the reader, the views, the stylus and all other readers, so that
+/// they agree on series and frame.
 
 #include <QString>
 
@@ -15,12 +15,12 @@
 
 namespace palpate::plugin {
 
-/// A series: where it is, and its name there.
+/// A series: its path, and its name there.
 struct SeriesRef {
-  std::string path;                                     ///< folder or file, as the program that reads it names it
-  std::string name;                                     ///< as scan_name()
-  QString label;                                        ///< as scan_label()
-  std::shared_ptr<const io::Catalogue> catalogue = {};  ///< that has it; null: a server's
+  std::string path;  ///< path of the folder or file, as seen by the program that reads it
+  std::string name;  ///< as scan_name()
+  QString label;     ///< as scan_label()
+  std::shared_ptr<const io::Catalogue> catalogue = {};  ///< with this series; null: a server's
   std::size_t series = 0;                               ///< in the catalogue
 
   /// Null if only a server has them.
@@ -46,7 +46,7 @@ struct ScanHandle {
 /// Modality and size, for a clinician: "CT, 64 slices of 96 x 80, every 2.5 mm". Names no patient.
 QString size_in_words(const io::Volume& volume);
 
-/// The handle of a volume of a series. `frames`: of a server's series; else the catalogue says it.
+/// The handle of a volume of a series. `frames`: for a server's series; otherwise the catalogue has their number.
 ScanHandle handle_of(const SeriesRef& of, std::shared_ptr<const io::Volume> volume, int frame, int frames);
 
 }  // namespace palpate::plugin

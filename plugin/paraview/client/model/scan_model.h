@@ -19,7 +19,7 @@
 
 namespace palpate::plugin {
 
-/// A note or an error message for the one who asked; empty: nothing.
+/// A note or an error message for the caller; empty: none.
 struct ScanMessage {
   QString text;
   bool problem = false;
@@ -36,7 +36,7 @@ class ScanModel : public QObject {
   const ScanMessage& message() const { return message_; }
   /// The scan that is shown and can be felt; null if there is none.
   const ScanHandle* shown() const;
-  /// The series that was asked for, and whose voxels or views are still to come; none: nothing is.
+  /// The requested series while its voxels or views are not yet here; none if there is no such request.
   std::optional<SeriesRef> on_its_way() const;
   /// The list to choose from; null if there is none.
   const FoundList* found() const;
@@ -46,45 +46,45 @@ class ScanModel : public QObject {
   std::string path() const;
   /// The series in the views, whether it can be felt or not; null: none.
   const SeriesRef* seen() const;
-  /// Why the views show something other than what the stylus would feel, and what to do; empty if they agree.
+  /// Why the views show something different from what the stylus would feel, and what to do; empty if they agree.
   QString why_not_felt() const;
 
   /// Finds the series of a folder or file, as the active server names it. Shows it if exactly one of them is a volume.
   void open(const std::string& path);
   /// Shows one of the series that were found.
   void choose(std::size_t series);
-  /// Gives up what is being found, read or fetched.
+  /// Cancels searching, reading or fetching.
   void cancel();
-  /// Another frame: its voxels first, in the background; then the views follow.
+  /// Loads the voxels of another frame in the background; then the views follow.
   void go_to_frame(int frame);
-  /// A server's scan may also be found in this folder of this machine: it is fetched again.
+  /// Searches this folder of this machine, too, for a copy of a server's scan, and fetches again.
   void add_copy(const std::string& folder);
   /// `filter` returns the filter that is felt, so that a new frame is filtered from the start.
   void set_filter(std::function<io::Filter()> filter) { filter_ = std::move(filter); }
 
-  /// `may_leave` is asked before the user finds or chooses another scan, and again before that takes the place of the
-  /// one that is open, which may have been worked on meanwhile. Where it returns false that one stays.
+  /// `may_leave` is called before the user finds or chooses another scan, and again before that scan replaces the open
+  /// one, whose data may have been edited meanwhile. If it returns false, the open scan stays.
   void set_may_leave(std::function<bool()> may_leave) { may_leave_ = std::move(may_leave); }
 
-  /// A reader that stands in the pipeline is taken over, with its views: a state file or Undo has brought it.
+  /// Takes over a reader in the pipeline, with its views, that a state file or Undo has created.
   void restore(const SeriesRef& of, Brought brought);
   /// The reader was deleted from the pipeline.
   void lose();
   /// The server has gone, with everything that it read.
   void lose_server();
-  /// ParaView's time is another one.
+  /// ParaView's time has changed.
   void follow_time();
 
  signals:
-  /// Anything of it is different.
+  /// Something in the model has changed.
   void changed();
-  /// Another list, or none: found().
+  /// found() has changed.
   void listed();
   void told(const QString& message, bool problem);
-  /// What is in the views is about to go.
+  /// The contents of the views are about to be removed.
   void leaving();
-  /// A server's scan is in the views, or about to be. It cannot be felt yet (`why` is empty), or not at all (`why` says
-  /// the reason). Also where the scan was closed.
+  /// A server's scan is in the views, or about to be, and cannot be felt: not yet if `why` is empty, otherwise for the
+  /// reason `why`. Also emitted when the scan was closed.
   void out_of_reach(const QString& why);
   /// Another scan is in the views, and can be felt.
   void scan_shown(const palpate::plugin::ScanHandle& handle, palpate::plugin::Brought brought);
@@ -118,8 +118,8 @@ class ScanModel : public QObject {
   ScanMessage message_;
   std::function<io::Filter()> filter_;
   std::function<bool()> may_leave_;
-  std::vector<std::string> copies_;  // folders of this machine that were named
-  // Of each kind of request, the last one: an answer to another is ignored.
+  std::vector<std::string> copies_;  // of this machine, named by the user
+  // The number of the latest request of each kind: answers to others are ignored.
   unsigned find_ = 0, views_ = 0, fetch_ = 0, frame_ = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which scan is in the views, and which comes next. Each is one of a few states, and a state holds all that belongs to
-/// it: none can be half.
+/// Which scan is in the views, and which comes next. Each is a variant of a few states, and each state holds exactly
+/// the data that belong to it.
 
 #include <QString>
 
@@ -45,44 +45,44 @@ namespace in_views {
 /// No scan is open.
 struct Nothing {};
 
-/// Its views are being made, one after the other. Nothing of it is felt yet.
+/// Its views are being made, one after the other. It cannot be felt yet.
 struct Showing {
   SeriesRef of;
   std::shared_ptr<const io::Volume> volume;  ///< null: the server's
   int frame = 0;
 };
 
-/// Its views are there, and its voxels are on their way: from a server, or from the files that a state file names.
+/// Its views are complete, and its voxels are being fetched: from a server, or from the files that a state file names.
 struct Fetching {
   SeriesRef of;
   bool from_server = false;
   Brought brought = Brought::by_opening;
-  QString what = {};  ///< that is being done
+  QString what = {};  ///< the current work
   double done = 0;
 };
 
-/// It is in the views, and its voxels could not be had.
+/// It is in the views, but its voxels cannot be obtained.
 struct OutOfReach {
   SeriesRef of;
   QString why;
 };
 
-/// A frame whose voxels are on their way.
+/// A frame whose voxels are being loaded.
 struct ComingFrame {
   int frame = 0;
-  std::shared_ptr<const io::Volume> volume = {};  ///< here already, and the views are not there yet
+  std::shared_ptr<const io::Volume> volume = {};  ///< loaded, while the views do not yet show it
   QString what = {};
   double done = 0;
 };
 
-/// It is seen, and can be felt.
+/// It is visible, and can be felt.
 struct Shown {
   ScanHandle scan;
   Brought brought = Brought::by_opening;
   std::optional<ComingFrame> coming = {};
 };
 
-/// It was in the views, and is gone from the pipeline.
+/// It was in the views, and has been removed from the pipeline.
 struct Lost {
   SeriesRef of;
   QString why;
@@ -97,18 +97,18 @@ namespace coming {
 /// No folder is open.
 struct Nothing {};
 
-/// Its series are being looked for.
+/// The series of a folder or file are being searched.
 struct Finding {
   std::string path;
   double done = 0;
 };
 
-/// Its series are there to be chosen from; also after one of them was chosen.
+/// The series are listed for the user to choose; also after the choice.
 struct Choosing {
   FoundList found;
 };
 
-/// The voxels of one of them are being read.
+/// The voxels of the chosen series are being read.
 struct Loading {
   FoundList found;
   std::size_t series = 0;

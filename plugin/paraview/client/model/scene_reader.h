@@ -1,7 +1,7 @@
 #pragma once
 
-/// Reads the structures that a scene needs in the background, and keeps them while their scan is felt: undoing finds
-/// them again.
+/// Reads the structures that a scene needs, in the background, and keeps them while their scan is felt, so that undo
+/// finds them again.
 
 #include <QString>
 
@@ -18,19 +18,19 @@ class SceneReader {
  public:
   explicit SceneReader(LiveSession& live) : live_(live) {}
 
-  /// Offers to the session what the scene needs on a scan, and calls `done` once, with an error if it cannot be read.
-  /// False: there is nothing to wait for. A scene is not read twice on the same scan: whoever asked asks again in
-  /// `done`. Another scene takes the place of the one that is being read for.
+  /// Reads what the scene needs on a scan, offers it to the session, and calls `done` once, with an error if it cannot
+  /// be read. False: there is nothing to wait for. A scene is not read twice on the same scan: the caller calls again
+  /// in `done`. A newer scene replaces the one being read.
   bool read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan,
             std::function<void(const QString& error)> done);
-  /// What is being read is not wanted any more. Returns whether anything was.
+  /// Cancels the reading. Returns whether there was any.
   bool cancel();
 
  private:
   LiveSession& live_;
   std::vector<LoadedStructure> held_;
   std::weak_ptr<const io::Volume> held_of_;
-  bool was_read_ = false;  // the scene that is asked about next
+  bool was_read_ = false;  // for the next call of read()
   Job job_;
 };
 

@@ -30,7 +30,7 @@
 
 namespace palpate::plugin {
 
-/// What has been felt since the last status, and the last tick.
+/// What was felt since the last poll, and the last tick.
 struct SessionStatus {
   bool connected = false;
   bool replayed = false;  ///< of a recording: nothing is felt
@@ -42,19 +42,20 @@ struct SessionStatus {
   std::string tissue;
   std::string held;                         ///< the boundary that holds the proxy, in words; empty if none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
-  double force_n = 0;                       ///< that the device was fed, in the last tick
+  double force_n = 0;                       ///< on the device, in the last tick
   double peak_n = 0;                        ///< the largest since the last poll
   double tick_us = 0;                       ///< median since the last poll
   std::uint64_t missed = 0;                 ///< since the stylus was connected
   bool clutched = false;
   bool feels = false;                         ///< forces were turned on, and not turned off since
   QString kept_off;                           ///< why the force is held back; empty: it is not
-  std::shared_ptr<const modes::Scene> scene;  ///< that was felt; null: the panel's
+  std::shared_ptr<const modes::Scene> scene;  ///< the felt scene; null: the panel's
 
-  std::optional<glm::dquat> orientation;  ///< of the stylus in the patient, where it tells: its z along the handle
-  QString homing;                         ///< how the stylus is homed
-  QString trouble;                        ///< what is wrong with it, and what to do; empty: nothing
-  QString held_up;                        ///< why the panel stopped answering, as far as known: "drawing took 2.3 s"
+  std::optional<glm::dquat>
+      orientation;  ///< of the stylus in the patient, if the device reports it: its z along the handle
+  QString homing;   ///< how the stylus is homed
+  QString trouble;  ///< what is wrong with it, and what to do; empty: nothing
+  QString held_up;  ///< why the panel stopped answering, as far as known: "drawing took 2.3 s"
 
   bool is_seen() const { return fresh && (connected || replayed); }
 };
@@ -66,19 +67,19 @@ class SessionController : public QObject {
   explicit SessionController(SceneModel& model, QObject* parent = nullptr);
   ~SessionController() override;
 
-  /// Another scan, or another frame of it, with the model's scene. The force is ramped across the change. What takes
-  /// long for a scan that was expected (structures of the scene, its filter) is made in the background: until then
-  /// expects_scan() is true, there is no force, and what was felt before stays.
+  /// Another scan, or another frame of it, with the model's scene. The force is ramped across the change. For a scan
+  /// announced by expect_scan(), slow parts (structures of the scene, its filter) are prepared in the background; until
+  /// they are ready, expects_scan() is true, there is no force, and the previous scan stays.
   void set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
-  /// Gives the scan through the filter of a scene that is about to be set.
+  /// Passes on the scan through the filter of a scene that is about to be set.
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }
   void offer(const PreparedScene& ahead) { live_.offer(ahead); }
-  /// Where in the scan its boundaries are met, once that is known: what holds is named by it.
+  /// Where each boundary lies in the scan, once known; used to name the boundary that holds the stylus.
   void set_sites(std::shared_ptr<const modes::SiteMap> sites) { sites_ = std::move(sites); }
-  /// Work of the panel's thread that has just ended, as "drawing": if the force goes because the panel did not answer,
-  /// it is named.
+  /// Records work of the panel's thread that has just ended, such as "drawing". If the force is removed because the
+  /// panel did not answer, the message names this work.
   void note_work(const QString& what, double seconds) { slow_.note(what, seconds); }
-  /// Until the next set_scan() a scene only has to be valid, because it is meant for the scan that will come.
+  /// Until the next set_scan(), scenes are checked only for validity, because they are meant for the coming scan.
   void expect_scan() { coming_.expected = true; }
   bool expects_scan() const { return coming_.expected; }
   /// There is no scan that can be felt: releases the stylus. connect() is refused with `why`, if it is given.
@@ -95,23 +96,23 @@ class SessionController : public QObject {
   /// Without a force: only feel() turns it on.
   void connect_stylus(const StylusChoice& choice);
   void disconnect_stylus();
-  /// Another scan is in the views: moves a simulated stylus to where it would begin there, as soon as it is felt.
+  /// Another scan is in the views: moves a simulated stylus to its starting place there, as soon as the scan is felt.
   void begin_outside();
   void feel();
   void release();
-  /// Takes the force away and refuses feel(), until this is called with an empty reason.
+  /// Removes the force and refuses feel(), until called with an empty reason.
   void keep_off(const QString& why);
-  /// Clears a fault; the stylus stays without a force. A stylus that was lost is opened again.
+  /// Clears a fault; there is still no force. A lost stylus is opened again.
   void clear_fault();
-  /// What was recorded of the session's last fault, in a sentence; empty: nothing.
+  /// The record of the session's last fault, as a sentence; empty: none.
   QString last_fault() const;
   void record(const std::string& file);
   void stop_recording();
 
-  /// Presses and releases the mark button from the panel, like the stylus' own button. Does nothing without a stylus.
+  /// Presses and releases the mark button, like the stylus' own button. Does nothing without a stylus.
   void press_mark();
   void let_go_mark() { mark_button_.let_go(); }
-  /// The mark that would be made at the last tick.
+  /// The mark that a press at the last tick would make.
   FeltMark mark_here() const;
 
   /// Separates the hand from the patient: there is no force, and on unclutching the stylus is at the same place in the
@@ -120,46 +121,46 @@ class SessionController : public QObject {
   void clutch();
   void unclutch(const glm::dmat3& rotation);
   bool is_clutched() const { return parted_.has_value(); }
-  /// Whether the mapping may change: not while the hand feels something, because it would be thrown.
+  /// Whether the mapping may change: not while a force is felt, because the hand would be thrown.
   bool may_remap() const;
 
-  /// What the status is while no stylus is held.
+  /// Gives the status while no stylus is connected.
   void show_instead(std::function<SessionStatus()> status) { instead_ = std::move(status); }
 
-  // The simulated stylus' hand, for mouse and keyboard.
+  // The hand of the simulated stylus, for mouse and keyboard.
   bool has_simulated() const { return hand_.holds() && live_.is_connected(); }
   void move_hand(const glm::dvec3& patient_mm) { hand_.move(patient_mm, workspace_.now()); }
-  /// Where the hand wants to be, mm, patient space: where it was last put, or else where the stylus is.
+  /// The target of the hand, mm, patient space: its last position, or else that of the stylus.
   glm::dvec3 hand_mm() const { return hand_.place_mm().value_or(status_.probe_mm); }
-  /// The simulated hand relaxes until nothing pushes it.
+  /// Lets the simulated hand relax until no force acts on it.
   void let_go() { hand_.let_go(); }
-  /// True: the mouse is used for something else, and does not take the stylus.
+  /// True: the mouse is used for something else and does not move the stylus.
   void keep_mouse_off(bool off) { hand_.keep_mouse_off(off); }
   bool takes_mouse() const { return hand_.takes_mouse() && live_.is_connected(); }
 
  signals:
-  /// The stylus' clutch button was released. The stylus views unclutch, because they know how they are turned.
+  /// The stylus' clutch button was released. The stylus views unclutch, because they know their rotation.
   void clutch_button_let_go();
   void polled(const palpate::plugin::SessionStatus& status);
   void connection_changed();
   void told(const QString& message, bool problem);
-  /// What a press of the mark button made; it has no name yet.
+  /// The result of a press of the mark button, without a name.
   void marked(const palpate::plugin::MarkMade& made);
   /// A recording has been written completely.
   void recorded(const QString& file);
 
  private:
-  /// Whether the user has turned forces on. The session owns that; a fault takes them away until it is cleared.
+  /// Whether the user has turned forces on. The session stores that; a fault turns them off until it is cleared.
   bool feels() const;
   void tell_recorded(const std::optional<RecorderStatus>& status);
   void take_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
-  /// Whether a scan waits for what is read for it; take_scan() follows.
+  /// Whether a scan waits for files that are being read for it; take_scan() follows.
   bool is_read_for(const std::shared_ptr<const io::Volume>& volume, const ScanFrame& frame);
   QString why_kept_off() const;
   void commit(const modes::Scene& scene, Pace pace);
   void follow_workspace();
   void poll();
-  /// Those that were pressed and those that were let go since the last poll.
+  /// The buttons pressed and released since the last poll.
   void obey_buttons(std::uint32_t pressed, std::uint32_t let);
   void follow_marks();
 
@@ -171,10 +172,10 @@ class SessionController : public QObject {
   FeltWorkspace workspace_;
   NewTicks ticks_;
   MarkButton mark_button_{live_};
-  /// Hand and patient are parted by the clutch.
+  /// Hand and patient are separated by the clutch.
   struct Parted {
     glm::dvec3 at_mm{0};  ///< where the stylus stays in the patient
-    bool felt = false;    ///< forces come back with the hand
+    bool felt = false;    ///< forces return when it ends
   };
   std::optional<Parted> parted_;
   QString kept_off_;
@@ -185,11 +186,11 @@ class SessionController : public QObject {
   std::function<SessionStatus()> instead_;
   QString recording_to_;
   QTimer heart_, polls_;
-  SceneReader reader_{live_};  // its thread is to end before the session, and so is the next one
+  SceneReader reader_{live_};  // its thread must end before the session; coming_.reader's, too
   struct ComingScan {
     bool expected = false;
-    bool begins_outside = false;  ///< the simulated stylus, once the scan is there
-    SceneReader reader;           ///< reads for it
+    bool begins_outside = false;  ///< move the simulated stylus to its starting place when the scan is felt
+    SceneReader reader;           ///< reads the files for it
   };
   ComingScan coming_{.reader = SceneReader(live_)};
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Off - Ready - Feeling - Stopped: what the stylus does, in one line.
+/// The state of the stylus: Off, Ready, Feeling or Stopped, in one line.
 
 #include <QString>
 
@@ -11,14 +11,14 @@ struct SessionStatus;
 enum class SessionState {
   off,      ///< no stylus is connected
   ready,    ///< connected, without a force until *Feel*
-  feeling,  ///< forces are on, or coming up
-  stopped   ///< the force was taken away, and is kept away: the words say why, and what to do
+  feeling,  ///< forces are on, or being ramped up
+  stopped   ///< the force was removed and stays off: the words give the reason and the remedy
 };
 
 struct StateLine {
   SessionState state = SessionState::off;
   QString words;               ///< begins with the state's name
-  bool fault_latched = false;  ///< which the user's hand has to clear
+  bool fault_latched = false;  ///< a fault that the user has to clear
   bool lost = false;           ///< the stylus has to be opened again
 };
 

@@ -1,8 +1,7 @@
 #pragma once
 
-/// Shares what the panel's session feels with 3D Slicer and other clients of OpenIGTLink. What they ask for goes
-/// through the models, as if it had been done in the panel: it can be undone, and it can neither turn the force on nor
-/// raise a limit.
+/// Shares the panel's session with 3D Slicer and other clients of OpenIGTLink. Requests of clients go through the
+/// models, like the panel's own: they can be undone, and they can neither turn the force on nor raise a limit.
 
 #include <QObject>
 #include <QString>
@@ -23,19 +22,19 @@ class SharingModel : public QObject {
   Q_OBJECT
 
  public:
-  /// All have to outlive it.
+  /// The arguments must outlive it.
   SharingModel(SessionController& session, SceneModel& scene, MarksModel& marks, QObject* parent = nullptr);
 
-  /// Listens on this machine. Returns why that cannot be done; empty: it is done.
+  /// Listens on this machine. Returns why that is impossible; empty: it listens.
   QString turn_on(int port);
   void turn_off();
   bool is_on() const { return sharing_ != nullptr; }
-  /// Where it listens; 0: it does not.
+  /// The port on which it listens; 0: none.
   int port() const { return server_ ? server_->port() : 0; }
   std::size_t clients() const { return clients_; }
 
  signals:
-  /// It is on or off, or has more or fewer clients.
+  /// It was turned on or off, or the number of clients has changed.
   void changed();
   /// A client asks for the scan in a folder.
   void folder_wanted(const QString& folder);
@@ -50,7 +49,7 @@ class SharingModel : public QObject {
   SceneModel& scene_;
   MarksModel& marks_;
   std::unique_ptr<igtl::Server> server_;
-  std::optional<igtl::Received> received_;  // from the first time on: scenes name its files
+  std::optional<igtl::Received> received_;  // kept from the first time on: scenes name its files
   std::unique_ptr<igtl::Sharing> sharing_;
   std::size_t clients_ = 0;
   QTimer looks_;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What kept the panel from answering: the last work that held its thread for long.
+/// Remembers the latest long work of the panel's thread, as the reason why the panel did not answer.
 
 #include <QString>
 
@@ -13,10 +13,10 @@ class SlowWork {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// `what` in words, as "drawing"; it has just ended.
+  /// `what` in words, such as "drawing"; it has just ended.
   void note(const QString& what, double seconds, Time ended = std::chrono::steady_clock::now());
-  /// "drawing took 2.3 s", where that ended a short while ago and took more than a fraction of the time after which the
-  /// force goes; empty: it is not known.
+  /// "drawing took 2.3 s", if it ended a short while ago and took more than a fraction of the time after which the
+  /// force is removed; empty: unknown.
   QString in_words(Time now = std::chrono::steady_clock::now()) const;
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What would be lost with another scan, or at the end of the program: the one place that decides what is not saved.
+/// The unsaved work that would be lost with another scan, or at the end of the program. Only this class decides what
+/// counts as unsaved.
 
 #include <cstddef>
 #include <map>
@@ -15,9 +16,9 @@
 namespace palpate::plugin {
 
 struct Unsaved {
-  bool scene = false;                 ///< what is felt was edited. Reach, limits and stiffness are the hand's
-  std::vector<std::string> outlines;  ///< that were corrected, by their names in the scene
-  std::size_t marks = 0;              ///< with paths, distances and angles
+  bool scene = false;  ///< the felt scene was edited. Reach, limits and stiffness do not count: they are the hand's
+  std::vector<std::string> outlines;  ///< corrected outlines, by their names in the scene
+  std::size_t marks = 0;              ///< including paths, distances and angles
 
   bool any() const { return scene || !outlines.empty() || marks > 0; }
 };
@@ -26,22 +27,22 @@ class UnsavedWork {
  public:
   UnsavedWork(const SceneModel& scene, const MarksModel& marks) : scene_(scene), marks_(marks) {}
 
-  /// Another scan would take it away. Marks wait until their scan comes back.
+  /// Lost with another scan. Marks are not lost: they come back with their scan.
   Unsaved of_scan() const;
-  /// The end of the program would.
+  /// Lost at the end of the program.
   Unsaved of_program() const;
 
-  /// A state file has all that the pipeline has, or has brought it.
+  /// A state file contains everything in the pipeline: it was saved or loaded.
   void note_state_saved();
-  /// The scene as it is can be had again: it stands in a list or in a file.
+  /// The current scene is saved, in a list or a file.
   void note_scene_saved();
-  /// A structure's outline with these edits is in a file or in an archive.
+  /// A structure's outline with these edits is saved, in a file or an archive.
   void note_outline_saved(const io::Structure& structure, const std::vector<io::Edit>& edits);
-  /// These marks of a scan, as MarksModel::scan() names it, are in an archive.
+  /// These marks of a scan (as in MarksModel::scan()) are saved in an archive.
   void note_marks_saved(const std::string& scan, const Marks& marks);
-  /// The user does not want the scene as it is: of_scan() is empty until it is another one.
+  /// The user discards the current scene: of_scan() is empty until the scene changes.
   void let_scene_go();
-  /// The same of the scene and of all marks: of_program() is empty.
+  /// The same for the scene and all marks: of_program() is empty.
   void let_all_go();
 
  private:
@@ -52,9 +53,9 @@ class UnsavedWork {
 
   const SceneModel& scene_;
   const MarksModel& marks_;
-  std::set<std::string> scenes_;                           // that are saved
-  std::map<std::string, std::vector<io::Edit>> outlines_;  // the same, by structure
-  std::set<std::string> items_;                            // marks, paths, distances and angles that are saved
+  std::set<std::string> scenes_;                           // saved ones
+  std::map<std::string, std::vector<io::Edit>> outlines_;  // saved ones, by structure
+  std::set<std::string> items_;                            // saved marks, paths, distances and angles
   std::string scene_let_go_, all_let_go_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What Qt's timers and queued calls need.
+/// The application object that Qt's timers and queued calls need.
 
 #include <QCoreApplication>
 
@@ -18,13 +18,13 @@ inline QCoreApplication& application() {
   return made;
 }
 
-/// A base of fixtures, before the models that are their members: a timer that is started before the application never
+/// A base of fixtures, constructed before their models: a timer that is started before the application never fires.
 /// fires.
 struct WithApplication {
   WithApplication() { application(); }
 };
 
-/// Whether it comes to hold within a minute, while events are handled.
+/// Whether the condition becomes true within a minute, while events are handled.
 template <typename Holds>
 bool comes(const Holds& holds) {
   application();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A running correction of a liver, whose looks at the scan a test answers.
+/// A running correction of a liver; the test answers its searches in the scan.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ struct Correcting : ::testing::Test {
     for (const io::Edit& edit : model.edits()) names.emplace_back(io::name_of(edit));
     return names;
   }
-  /// What the pipeline keeps, read again.
+  /// The edits in the pipeline's text.
   std::vector<io::Edit> kept_edits() const {
     const modes::Scene read = modes::scene_from_json(kept.text("Scene"), "scene");
     return read.structures.empty() ? std::vector<io::Edit>() : read.structures.front().edits;
@@ -84,7 +84,7 @@ struct Correcting : ::testing::Test {
   std::vector<double> gone_to;
 };
 
-/// As in the panel: each step is done once what it needs was read.
+/// As in the panel: each step waits until its files are read.
 struct CorrectingSlowly : Correcting {
   CorrectingSlowly() {
     scene.set_read([this](const modes::Scene&, auto done) {
@@ -100,7 +100,7 @@ struct CorrectingSlowly : Correcting {
     }
   }
 
-  bool is_read = false;  // what the next change needs
+  bool is_read = false;  // for the next change
   std::vector<std::function<void(const QString&)>> reading;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A pipeline that keeps texts, with steps that can be undone.
+/// A pipeline that keeps texts, with undo.
 
 #include <map>
 #include <string>

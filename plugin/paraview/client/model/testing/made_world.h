@@ -1,6 +1,6 @@
 #pragma once
 
-/// A program around the model of the scan: it keeps what was asked for, and a test answers when it wants to.
+/// A fake ScanWorld: it records requests, and the test answers them when it wants to.
 
 #include <deque>
 #include <string>
@@ -64,14 +64,14 @@ class MadeWorld : public ScanWorld {
     return QStringLiteral("notes on ") + QString::fromStdString(of.name);
   }
 
-  /// What was asked for since the last call.
+  /// The requests since the last call.
   std::vector<std::string> take_asked() { return std::exchange(asked, {}); }
 
   bool remote = false;
   int time = 0;
   ViewFacts view;
   std::vector<std::string> asked, looked_in;
-  // All that were ever asked for, the last one last: an old one may be answered, too.
+  // All requests so far, the latest last; a test may also answer an old one.
   std::deque<Found> found_;
   std::deque<Loaded> loaded_, frames_;
   std::deque<Made> made_;

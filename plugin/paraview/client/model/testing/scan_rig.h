@@ -1,6 +1,6 @@
 #pragma once
 
-/// A model of the scan in a made program, and what it reports.
+/// A scan model in a fake world, and its signals.
 
 #include <gmock/gmock.h>
 
@@ -36,7 +36,7 @@ inline std::shared_ptr<const io::Volume> voxels() {
   return std::make_shared<const io::Volume>();
 }
 
-/// Follows the model as panel and views do, and writes down what it reports.
+/// Follows the model as panel and views do, and records its signals.
 struct ScanModelFollowed : ::testing::Test {
   ScanModelFollowed() {
     QObject::connect(&model, &ScanModel::leaving, [this] { reported << QStringLiteral("leaving"); });
@@ -54,7 +54,7 @@ struct ScanModelFollowed : ::testing::Test {
   }
   QStringList take_reported() { return std::exchange(reported, {}); }
 
-  /// A folder of one series of so many frames, up to its views.
+  /// Opens a folder of one series with so many frames, up to its views.
   void show(const std::string& name, int frames = 1, const std::string& patient = "A") {
     model.open("/" + name);
     world.found_.back()(folder("/" + name, {series(name, patient, frames)}), {});
