@@ -30,6 +30,6 @@ class PalpatePanel : public QDockWidget {
   bool correct_by_key(const QKeyEvent& event);
   void let_go_keys();
 
-  std::unique_ptr<palpate::plugin::Translation> translation_;  // first: what is built asks for its words
+  std::unique_ptr<palpate::plugin::Translation> translation_;  // first: the other members need its texts
   std::unique_ptr<palpate::plugin::PanelParts> parts_;
 };

@@ -23,13 +23,13 @@ struct BodyMask {
 /// Whether the mask has one more voxel around the body, to include the slope of the skin.
 enum class Rim { none, one_voxel };
 
-/// `value_at`: HU of a voxel of a scan with that many voxels, that far apart (mm). Coarse voxels are `coarse_mm` apart
-/// or a little more. Thin bridges between the body and the table are cut. The largest piece that is left is the body,
-/// with its holes and with all pieces that join it within a centimeter. Takes some tenths of a second, on any thread.
+/// `value_at`: HU of a voxel of a scan with this number and spacing (mm) of voxels. Coarse voxels are `coarse_mm` apart
+/// or a little more. Thin bridges between the body and the table are cut. The largest remaining piece is the body, with
+/// its holes and with all pieces within a centimeter of it. Takes some tenths of a second, on any thread.
 BodyMask body_mask(const std::function<double(int, int, int)>& value_at, const glm::ivec3& voxels,
                    const glm::dvec3& spacing_mm, Rim rim, double coarse_mm = 2);
 
-/// The part (0 to 1) of the body's voxels that is as light as lungs: -950 to -600 HU. For a mask without a rim.
+/// The fraction (0 to 1) of the body's voxels that are as light as lungs: -950 to -600 HU. For a mask without a rim.
 double light_part(const BodyMask& body, const std::function<double(int, int, int)>& value_at);
 
 }  // namespace palpate::plugin

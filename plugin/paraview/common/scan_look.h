@@ -1,7 +1,7 @@
 #pragma once
 
-/// How a scan is to look: gray windows for its slices, colors and opacity for its volume, from what it is and how its
-/// values are spread.
+/// The initial appearance of a scan: gray windows for its slices, colors and opacity for its volume, chosen by modality
+/// and distribution of values.
 
 #include <cstddef>
 #include <optional>
@@ -23,41 +23,41 @@ struct NamedWindow {
 
 /// What is known of a scan's values.
 struct Values {
-  std::string modality;                   ///< DICOM's: "CT", "MR", ...
-  bool hounsfield = false;                ///< whether their unit is HU
-  bool speeds = false;                    ///< whether they are in m/s
-  double low = 0;                         ///< least
-  double high = 1;                        ///< greatest
-  std::optional<Window> own;              ///< what the series asks for
-  std::vector<double> shares;             ///< below the n-th are n percent of the voxels; ascending; may be empty
-  std::optional<double> light_part = {};  ///< of the body, what is as light as lungs, 0 to 1; unknown for all but HU
+  std::string modality;        ///< DICOM's: "CT", "MR", ...
+  bool hounsfield = false;     ///< whether their unit is HU
+  bool speeds = false;         ///< whether they are in m/s
+  double low = 0;              ///< least
+  double high = 1;             ///< greatest
+  std::optional<Window> own;   ///< the series' own
+  std::vector<double> shares;  ///< percentiles: n percent of the voxels are below the n-th; ascending; may be empty
+  std::optional<double> light_part = {};  ///< fraction of the body that is as light as lungs, 0 to 1; only for HU
 };
 
-/// The windows that are offered for the slices. The first is the one shown first: the series' own window. Then follow,
-/// for HU, brain, soft tissue, lung and bone; for all other units the middle 98 percent of the values, and all of them.
-/// Speeds, where nearly none is negative, are shown from zero to twice those of the first frame: a pulse makes others
+/// The windows offered for the slices, the one shown first at the front: the series' own window. Then, for HU, brain,
+/// soft tissue, lung and bone; for all other units the middle 98 percent of the values, and all of them. Speeds that
+/// are hardly ever negative are shown from zero to twice those of the first frame, because a pulse makes other frames
 /// faster. Never empty.
 std::vector<NamedWindow> windows_for(const Values& values);
 
-/// As vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0) take them.
+/// In the form of vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0).
 struct VolumeLook {
   const char* name = "";  ///< English, for tr()
   std::vector<double> colors;
   std::vector<double> opacity;
-  bool shaded = true;  ///< as by a lamp at the eye
+  bool shaded = true;  ///< lit from the viewpoint
 };
 
-/// The looks that are offered for the volume. For HU: CT skin, bone, lung, vessels. For others: MR, which shows what is
+/// The appearances offered for the volume. For HU: CT skin, bone, lung, vessels. For others: MR, which shows everything
 /// brighter than the background (Otsu's threshold, from the distribution of the values), and MR vessels, which shows
-/// the few percent that are brightest.
+/// the brightest few percent.
 std::vector<VolumeLook> volume_looks_for(const Values& values);
 
-/// Which of them suits the scan. For HU: skin; bone if there is no air around the patient; lung if a tenth of the body
-/// or more is as light as lungs (counted inside the body, without foam under it, if that is known). For others: vessels
-/// if only a few percent are brighter than the background.
+/// The index of the most suitable one. For HU: skin; bone if there is no air around the patient; lung if at least a
+/// tenth of the body is as light as lungs (counted inside the body, without foam under it, if that is known). For
+/// others: vessels if only a few percent are brighter than the background.
 std::size_t suited_look(const Values& values);
 
-/// The value that splits the spread best into two classes (Otsu, "A threshold selection method from gray-level
+/// The value that best splits the distribution into two classes (Otsu, "A threshold selection method from gray-level
 /// histograms", 1979). Needs shares.
 double otsu_threshold(const std::vector<double>& shares);
 

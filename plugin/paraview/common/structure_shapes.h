@@ -1,6 +1,6 @@
 #pragma once
 
-/// The lines and surfaces that show a structure. They lie where its distance is zero. There it is felt, too.
+/// The lines and surfaces that show a structure: where its distance is zero, which is also where it is felt.
 
 #include <vtkSmartPointer.h>
 

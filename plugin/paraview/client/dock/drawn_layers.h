@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is drawn in the views over the scan: boundaries, flow, crosshair, marks, the stylus.
+/// The layers that are drawn over the scan in the views: boundaries, flow, crosshair, marks, the stylus.
 
 #include <QTimer>
 
@@ -23,14 +23,14 @@ class DrawnLayers {
   DrawnLayers(const DrawnLayers&) = delete;
   DrawnLayers& operator=(const DrawnLayers&) = delete;
 
-  /// The boundaries of the scene as it is felt.
+  /// Draws the boundaries of the felt scene.
   void draw_boundaries(Pace pace = Pace::stepped);
-  /// The scan goes: nothing of it is held.
+  /// Releases everything that belongs to the scan.
   void forget_scan();
-  /// The stylus where it was last; goes on by itself while a picture comes in turns.
+  /// Draws the stylus at its latest position; repeats itself while a picture is drawn in several turns.
   void draw_stylus();
-  /// True: nothing is drawn. What is drawn while a server is left would ask a server that may be lost, and ParaView
-  /// then ends the program.
+  /// True: draws nothing. While a server is being left, drawing could send requests to a lost server, and ParaView
+  /// would then end the program.
   void pause(bool on) { paused_ = on; }
   bool is_paused() const { return paused_; }
 
@@ -45,7 +45,7 @@ class DrawnLayers {
   SessionController& session_;
   SceneModel& scene_;
   DrawingWatch watch_;
-  QTimer next_turn_;  // of a picture that comes in turns
+  QTimer next_turn_;  // of a picture that is drawn in several turns
   bool paused_ = false;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The left button in the views while an outline is corrected, and what is drawn of its strokes. The force profile has
-/// the button first.
+/// Handles the left mouse button in the views while an outline is corrected, and draws its strokes. The force profile's
+/// picking takes precedence.
 
 #include <glm/vec3.hpp>
 #include <optional>
@@ -25,13 +25,13 @@ class OutlineStrokes {
   OutlineStrokes(const OutlineStrokes&) = delete;
   OutlineStrokes& operator=(const OutlineStrokes&) = delete;
 
-  /// Whether the force profile's points are picked.
+  /// Whether the button picks points of the force profile.
   void give_to_profile(bool on);
-  /// Of what adds or removes, at the place under the pointer.
+  /// Draws the brush of add or remove at the place under the pointer.
   void show_brush(const std::optional<glm::dvec3>& at);
-  /// Another slice is shown in a view: if it is that of the one that the hand is held in, the hand is held in it.
+  /// A view shows another slice: if the hand is held in that view's slice, it is moved to the new one.
   void follow_slice(const SliceView& shown);
-  /// The slice in the view that is marked, or else the axial one.
+  /// The slice of the active view, or else the axial one.
   std::optional<HeldPlane> marked_slice() const;
 
  private:

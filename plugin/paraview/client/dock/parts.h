@@ -1,7 +1,7 @@
 #pragma once
 
-/// The panel's parts, and how each answers to the others. A file for each of them beside this one: a new connection
-/// belongs to the file of what it starts from.
+/// The panel's parts and the connections between them. Each part has a file in this folder; a connection is in the file
+/// of the part that sends the signal.
 
 #include <QCoreApplication>
 #include <QDockWidget>
@@ -36,7 +36,7 @@ class ClinicalToolbar;
 class HostLayout;
 struct CorrectedOutline;
 
-/// Members in the order in which they lean on each other.
+/// Members in order of dependence.
 struct PanelParts {
   Q_DECLARE_TR_FUNCTIONS(PanelParts)
 

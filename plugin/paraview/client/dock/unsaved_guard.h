@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is not saved is asked about before it goes, or kept where that cannot be asked.
+/// Asks about unsaved work before it is lost, or saves it where the user cannot be asked.
 
 #include <QObject>
 #include <QString>
@@ -20,8 +20,8 @@ class UnsavedGuard : public QObject {
  public:
   UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& window);
 
-  /// ParaView's session ends, and nobody was asked: by a script, or by another server. What is to be told of it; empty:
-  /// there was nothing to be kept.
+  /// ParaView's session ends without a question: by a script, or because of another server. Saves the work, and returns
+  /// a message about it; empty: there was nothing to save.
   QString recover();
 
  private:
@@ -32,8 +32,8 @@ class UnsavedGuard : public QObject {
 
   UnsavedWork& work_;
   QMainWindow& window_;
-  bool saving_ = false;  // a state file, which may fail
-  bool ending_ = false;  // the program, which has asked
+  bool saving_ = false;  // a state file is being saved; this may fail
+  bool ending_ = false;  // the program ends, and the user has been asked
 };
 
 }  // namespace palpate::plugin

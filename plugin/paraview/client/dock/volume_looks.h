@@ -1,6 +1,6 @@
 #pragma once
 
-/// How the volume is drawn: the box that says so, and the representations that follow it.
+/// The volume's appearance: the box to choose it, and the representations that follow the choice.
 
 #include <QObject>
 
@@ -23,13 +23,14 @@ class VolumeLooks {
   VolumeLooks& operator=(const VolumeLooks&) = delete;
 
   VolumeLookBox& box() { return *box_; }
-  /// Another scan: what is chosen here is of the one before.
+  /// Another scan: forgets the choice made for the previous one.
   void begin_scan();
-  /// Once the views are there: the look that a state file names, where it was restored.
+  /// To be called when the views exist. `restored`: take the appearance from the state file.
   void restore(bool restored);
-  /// A frame may be a tenth as bright as the one before: windows and looks are its own, as far as nobody chose others.
+  /// A frame may be a tenth as bright as the previous one: each frame has its own windows and appearance unless the
+  /// user chose them.
   void show_frame_values();
-  /// What is seen of the volume, as it is shown now: it may have been edited in ParaView.
+  /// Reads the opacity of the volume as it is shown now, because it may have been edited in ParaView.
   void read_opacity();
 
  private:
@@ -40,7 +41,7 @@ class VolumeLooks {
   DrawnLayers& layers_;
   KeptText& kept_;
   VolumeLookBox* box_;
-  QObject lifetime_;  // its end ends what is connected to the box
+  QObject lifetime_;  // its destructor ends the connections to the box
 };
 
 }  // namespace palpate::plugin

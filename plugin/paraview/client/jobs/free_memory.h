@@ -1,6 +1,6 @@
 #pragma once
 
-/// Memory that is free again once a scan has gone. The C library keeps it, spread over what the program still holds: a
+/// Returns memory to the system after a scan was closed. The C library would keep it, scattered among used memory: a
 /// few hundred megabytes after a few scans.
 
 #include <malloc.h>
@@ -21,7 +21,7 @@ class FreeMemory {
     });
   }
 
-  /// Gives it back to the system, in the background, once nothing more was asked for 2 s.
+  /// Returns it in the background, 2 s after the last call.
   void give_back_soon() { soon_.start(); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Work in the background for an object of the UI thread, which never waits for it.
+/// Background work for an object of the UI thread, which never waits for it.
 
 #include <QMetaObject>
 #include <QObject>
@@ -22,19 +22,21 @@ namespace palpate::plugin {
 
 class Job {
  public:
-  /// What becomes of the work that runs when other work is asked for.
+  /// What happens to running work when new work is asked for.
   enum class Newer {
-    cancels,  ///< it is cancelled; the newer begins at once beside it, because it may wait for a machine that is silent
-    follows,  ///< it is finished and its result is given; then the newest begins, and what was asked between is dropped
+    cancels,  ///< it is cancelled, and the new work begins at once beside it, since it may be waiting for a silent
+              ///< machine
+    follows,  ///< it is finished and its result delivered; then the newest work begins, and work asked for in between
+              ///< is dropped
   };
-  /// Given to the work. From any thread.
+  /// Passed to the work. Usable from any thread.
   struct Control {
-    /// False: the work is not wanted any more.
+    /// False: the work was cancelled.
     std::function<bool()> keep_going;
-    /// Calls a function on the thread that asked, unless the work is not wanted any more.
+    /// Calls a function on the thread that asked, unless the work was cancelled.
     std::function<void(std::function<void()>)> tell;
 
-    /// Tells each whole percent on the thread that asked, and stops what is not wanted any more.
+    /// Reports each whole percent on the thread that asked, and stops cancelled work.
     io::Progress progress(std::function<void(double done)> shown) const;
   };
 
@@ -44,9 +46,9 @@ class Job {
   /// As finish().
   ~Job() { finish(); }
 
-  /// `work` runs in the background, with a Control or with nothing. `done(result, error)` is called with what it
-  /// returns on the thread that asked: a std::shared_ptr<const Result>, null if the work threw, and a QString that says
-  /// why. It is not called for work that is not wanted any more.
+  /// Runs `work` in the background, with a Control or without arguments. Then calls `done(result, error)` on the thread
+  /// that asked: a std::shared_ptr<const Result>, null if the work threw, and a QString with the reason. `done` is not
+  /// called for cancelled work.
   template <typename Work, typename Done>
   void ask(Work work, Done done) {
     put([work = std::make_shared<Work>(std::move(work)),
@@ -55,11 +57,11 @@ class Job {
       return [done, result, error] { done(result, error); };
     });
   }
-  /// What was asked for is not wanted any more. Does not wait for it.
+  /// Cancels the work that was asked for, without waiting for its end.
   void cancel();
-  /// Cancels, and waits for what runs: for the end of the program.
+  /// Cancels, and waits for running work to end: for the end of the program.
   void finish();
-  /// Whether what was asked for is still to come.
+  /// Whether a result is still to come.
   bool is_busy() const { return next_ || wanted_; }
 
  private:
@@ -89,11 +91,11 @@ class Job {
   void end(const std::shared_ptr<std::atomic<bool>>& wanted, const Reply& reply);
 
   Newer newer_;
-  std::shared_ptr<std::atomic<bool>> wanted_;  // whether what runs is; null: nothing runs that is
+  std::shared_ptr<std::atomic<bool>> wanted_;  // whether the running work is wanted; null: no wanted work is running
   bool running_ = false;                       // wanted or not
   std::optional<Task> next_;
-  QObject receiver_;  // its end ends what was queued
-  QThreadPool pool_;  // first to go
+  QObject receiver_;  // its destructor drops queued calls
+  QThreadPool pool_;  // destroyed first
 };
 
 }  // namespace palpate::plugin

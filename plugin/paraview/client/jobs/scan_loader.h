@@ -1,6 +1,6 @@
 #pragma once
 
-/// Finding, loading and studying scans in the background, so that the panel stays alive and a scan can be given up.
+/// Finds, loads and studies scans in the background, so that the panel stays responsive and the work can be cancelled.
 
 #include <QImage>
 
@@ -17,13 +17,14 @@
 
 namespace palpate::plugin {
 
-/// A series here that may be the one on a server.
+/// A local series that may be the same as one on a server.
 struct ScanCopy {
   std::shared_ptr<const io::Catalogue> catalogue;
   std::size_t series = 0;
 };
 
-/// One at a time: a new one cancels the last. All callbacks come on the UI thread, none after cancel() or destruction.
+/// One job at a time: a new one cancels the previous one. All callbacks come on the UI thread, none after cancel() or
+/// destruction.
 class ScanLoader {
  public:
   /// Empty if the job failed or was cancelled; then `error` says why, or is empty if it was cancelled.
@@ -35,16 +36,16 @@ class ScanLoader {
   ScanLoader() = default;
 
   void find(const std::string& path, Progress progress, Found found);
-  /// Through a filter, where one is given.
+  /// Loads through a filter, if one is given.
   void load(const io::Series& series, int frame, const io::Filter& filter, Progress progress, Loaded loaded);
   void filter(std::shared_ptr<const io::Volume> volume, const io::Filter& filter, Progress progress, Loaded loaded);
-  /// Series of that name (as scan_name()) and size in these folders and files; what is not there is passed over.
+  /// Finds series with that name (as scan_name()) and size in these folders and files; missing places are skipped.
   void find_copies(std::vector<std::string> places, const std::string& name, const glm::ivec3& size, Progress progress,
                    std::function<void(const std::vector<ScanCopy>&, const std::string& error)> found);
-  /// The first of them whose frame has that hash; none, without an error, where none has.
+  /// Loads the first of them whose frame has that hash; null without an error if none has.
   void load_copy(std::vector<ScanCopy> copies, int frame, const std::string& hash, Progress progress, Loaded loaded);
   void study(std::shared_ptr<const io::Volume> volume, Progress progress, Studied studied);
-  /// One for each series, in their order, as they are drawn; empty ones where there is nothing to be shown.
+  /// Draws one thumbnail for each series, in their order; empty if a series cannot be shown.
   void draw_thumbnails(std::shared_ptr<const io::Catalogue> catalogue,
                        std::function<void(std::size_t series, const QImage&)> drawn);
   void cancel() { job_.cancel(); }

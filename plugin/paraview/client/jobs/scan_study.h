@@ -1,7 +1,6 @@
 #pragma once
 
-/// What is found out about a scan once it is loaded, in the background: the scene that it suggests, and what its
-/// transfer functions are drawn over.
+/// Background analysis of a loaded scan: the scene that it suggests, and the histograms behind its transfer functions.
 
 #include <memory>
 #include <vector>
@@ -14,14 +13,14 @@
 
 namespace palpate::plugin {
 
-/// How often something lies in each of evenly wide bins.
+/// A histogram with bins of equal width.
 struct Counts {
   io::Bins bins;
   std::vector<double> counts;
 };
 
 struct ScanStudy {
-  modes::Scene suggested;  ///< a starting scene where nothing was found
+  modes::Scene suggested;  ///< a starting scene if nothing was found
   Counts values;           ///< in the scan's unit
   Counts magnitudes;       ///< of the gradient, per mm
   std::shared_ptr<const modes::SiteMap> sites;

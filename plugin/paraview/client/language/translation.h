@@ -6,8 +6,8 @@
 
 namespace palpate::plugin {
 
-/// While it lives, texts that were translated are shown in the language of the setting palpate/language ("de", "en"),
-/// or else of the system. A text that was not translated stays English, as messages do (plugin/docs/messages.md).
+/// While this object exists, translated texts are shown in the language of the setting palpate/language ("de", "en"),
+/// or else of the system. Untranslated texts stay English, as messages do (plugin/docs/messages.md).
 class Translation : public QTranslator {
  public:
   Translation();

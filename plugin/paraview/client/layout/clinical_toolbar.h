@@ -1,6 +1,6 @@
 #pragma once
 
-/// The one toolbar of the clinical layout: what is pressed while a scan is looked at and felt.
+/// The only toolbar of the clinical layout, with the controls needed while a scan is viewed and felt.
 
 #include <QToolBar>
 
@@ -17,17 +17,17 @@ class ClinicalToolbar : public QToolBar {
   Q_OBJECT
 
  public:
-  /// The boxes of gray windows and of the volume's looks come to stand here.
+  /// The toolbar takes the boxes of gray windows and of the volume's appearance.
   ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* parent);
 
-  /// How it is connected now, and whether that can be changed.
+  /// Whether a stylus is connected, and whether that can be changed.
   void show_connection(bool connected, bool can_connect);
   void show_enlarged(bool enlarged);
   void show_advanced(bool advanced);
   void show_measure(Measure measure);
-  /// How many there are, in words; empty: no room is taken for them.
+  /// The number of marks, in words; empty: the label is hidden.
   void show_marks(const QString& words);
-  /// What can be cut away from the volume; what is, is asked for anew: the table is, the box is not.
+  /// What can be cut away from the volume: the table, a box. When the table becomes removable, it is cut away.
   void show_volume_cuts(bool can_cut, bool can_crop);
 
  signals:

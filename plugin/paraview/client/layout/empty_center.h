@@ -1,6 +1,6 @@
 #pragma once
 
-/// The start page in ParaView's center. It is there while the pipeline is empty, in place of empty views.
+/// The start page in ParaView's center, shown in place of empty views while the pipeline is empty.
 
 #include <QObject>
 #include <QPointer>
@@ -13,10 +13,11 @@ namespace palpate::plugin {
 
 class EmptyCenter : public QObject {
  public:
-  /// Puts the page beside ParaView's views; not in sight yet. Does nothing if this ParaView has its views elsewhere.
+  /// Adds the page beside ParaView's views, still hidden. Does nothing if this version of ParaView has its views
+  /// elsewhere.
   EmptyCenter(QMainWindow& window, QWidget& page, QObject* parent);
 
-  /// Whether ParaView is as it is without us: then its own views stay.
+  /// Whether ParaView's own interface is shown: then its own views stay.
   void set_advanced(bool advanced);
 
  private:
@@ -24,7 +25,7 @@ class EmptyCenter : public QObject {
 
   QPointer<QWidget> views_;
   QPointer<QWidget> page_;
-  QTimer soon_;  // a scan that takes another's place leaves nothing empty
+  QTimer soon_;  // delayed, since a scan that replaces another leaves nothing empty
   bool advanced_ = true;
 };
 

@@ -1,12 +1,12 @@
 #pragma once
 
-/// Palpate in ParaView's help menu: the guide, without a network, and what this program is.
+/// Palpate in ParaView's help menu: the guide, which needs no network, and information about this program.
 
 class QMainWindow;
 
 namespace palpate::plugin {
 
-/// F1 opens the guide from then on.
+/// From then on F1 opens the guide.
 void add_help(QMainWindow& window);
 
 }  // namespace palpate::plugin

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What of ParaView takes the user's work away asks first: its window's close button, File > Exit, File > Load State,
-/// a state among the recent files, one that is dropped on the window, and Edit > Reset Session.
+/// Asks before an action of ParaView would discard the user's work: the window's close button, File > Exit, File > Load
+/// State, a recent state file, a state file dropped on the window, and Edit > Reset Session.
 
 #include <QObject>
 
@@ -19,7 +19,7 @@ class HostGuards : public QObject {
  public:
   using May = std::function<bool()>;
 
-  /// `may_end`: whether ParaView may end; `may_replace`: whether all that is open may make room for something else.
+  /// `may_end`: whether ParaView may end; `may_replace`: whether everything that is open may be replaced.
   HostGuards(QMainWindow& window, May may_end, May may_replace, QObject* parent = nullptr);
 
  protected:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// ParaView's own toolbars and panels around the views: hidden for a clinician, all there under "Advanced".
+/// ParaView's own toolbars and panels around the views: hidden for a clinician, shown under "Advanced".
 
 #include <QList>
 #include <QObject>
@@ -21,9 +21,9 @@ class HostLayout : public QObject {
   /// and ParaView has arranged it. If the pipeline already holds something else, the layout is left as it is.
   HostLayout(QMainWindow& window, QToolBar& toolbar, QDockWidget& panel, QObject* parent);
 
-  /// Remembered from one start of the program to the next.
+  /// The choice is kept for the next start of the program.
   void set_advanced(bool advanced);
-  /// To be called when views or tabs were added: makes them look as the layout requires.
+  /// To be called after views or tabs were added: adapts them to the layout.
   void refresh_tabs();
 
  signals:
@@ -39,8 +39,8 @@ class HostLayout : public QObject {
   QMainWindow& window_;
   QToolBar& toolbar_;
   QDockWidget& panel_;
-  QList<QPointer<QWidget>> hidden_;  // of ParaView's, by us
-  bool advanced_ = true;             // until ParaView is in order
+  QList<QPointer<QWidget>> hidden_;  // ParaView's, hidden by us
+  bool advanced_ = true;             // until ParaView has arranged its window
 };
 
 }  // namespace palpate::plugin

@@ -4,8 +4,8 @@ class QMainWindow;
 
 namespace palpate::plugin {
 
-/// ParaView's *Properties* and *Color Map Editor* follow what is active only while they are seen. Hidden, they would
-/// build their widgets anew for every view and representation that a scan is shown in.
+/// Makes ParaView's *Properties* and *Color Map Editor* follow the active object only while they are visible. Otherwise
+/// they would rebuild their widgets for every view and representation of a scan even while hidden.
 void follow_while_seen(QMainWindow& window);
 
 }  // namespace palpate::plugin

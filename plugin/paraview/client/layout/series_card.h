@@ -1,6 +1,6 @@
 #pragma once
 
-/// A series as a card: its picture, what tells it from the others, and why it cannot be felt where it cannot.
+/// A series as a card: its picture, its distinguishing details, and the reason if it cannot be felt.
 
 #include <QCoreApplication>
 #include <QPushButton>
@@ -18,12 +18,12 @@ class SeriesCard : public QPushButton {
   Q_DECLARE_TR_FUNCTIONS(SeriesCard)
 
  public:
-  /// `best`: why it is the one to feel first; empty where it is not.
+  /// `best`: why this series is recommended to be felt first; empty if it is not.
   SeriesCard(const io::Series& series, const QString& best, QWidget* parent = nullptr);
 
   void set_picture(const QImage& picture);
 
-  // As large as what it shows: a button alone knows its text.
+  // As large as its contents: a plain button knows only its text.
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
   bool hasHeightForWidth() const override { return true; }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What stands in the empty center, where no scan is open: how to get to one, and the patients, studies and series of
-/// the folder that was opened.
+/// The page in the empty center while no scan is open: ways to open one, and the patients, studies and series of the
+/// opened folder.
 
 #include <QScrollArea>
 #include <QString>
@@ -31,9 +31,9 @@ class StartPage : public QScrollArea {
   /// The series of a folder, as cards; null: none.
   void set_catalogue(const std::shared_ptr<const io::Catalogue>& catalogue);
   void set_picture(std::size_t series, const QImage& picture);
-  /// What is going on, or went wrong.
+  /// Shows the current activity, or an error.
   void tell(const QString& message, bool problem = false);
-  /// Names a scan to try; empty: none can be had.
+  /// Offers a sample scan by this name; empty: none is available.
   void set_sample(const QString& offer);
   void refresh_recent();
 
@@ -42,7 +42,7 @@ class StartPage : public QScrollArea {
   void archive_wanted();
   void sample_wanted();
   void folder_wanted(const QString& folder);
-  /// Of the catalogue.
+  /// A series of the catalogue was chosen.
   void series_wanted(std::size_t series);
 
  protected:
@@ -63,10 +63,10 @@ class StartPage : public QScrollArea {
   QLabel* message_ = nullptr;
   QPushButton* sample_ = nullptr;
   QWidget* recent_ = nullptr;
-  QWidget* patients_ = nullptr;  // made anew for each catalogue
+  QWidget* patients_ = nullptr;  // rebuilt for each catalogue
   QVBoxLayout* column_ = nullptr;
   std::vector<Study> studies_;
-  std::vector<SeriesCard*> cards_;  // by series, and after them the velocity fields
+  std::vector<SeriesCard*> cards_;  // by series, followed by the velocity fields
   int across_ = 0;
 };
 

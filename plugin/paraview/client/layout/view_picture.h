@@ -1,6 +1,6 @@
 #pragma once
 
-/// A picture of what the views show.
+/// Pictures of the views.
 
 #include <QString>
 
@@ -8,8 +8,8 @@ class pqRenderView;
 
 namespace palpate::plugin {
 
-/// As a PNG file: the view alone where it is enlarged, else all views of its tab; without the patient's name and the
-/// scroll bars. Whether it was written.
+/// Saves a PNG file: of the view alone if it is enlarged, else of all views of its tab; without the patient's name and
+/// the scroll bars. Returns whether the file was written.
 bool save_picture(pqRenderView& marked, const QString& file);
 
 }  // namespace palpate::plugin

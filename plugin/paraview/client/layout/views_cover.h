@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lies over ParaView's views while those of a scan are made, one after the other: nobody sees an empty one.
+/// Covers ParaView's views while those of a scan are made one after the other, so that no empty view is seen.
 
 #include <QPointer>
 #include <QString>
@@ -12,11 +12,11 @@ namespace palpate::plugin {
 
 class ViewsCover : public QWidget {
  public:
-  /// Not in sight yet. Never is where this ParaView has its views elsewhere.
+  /// Hidden at first, and always if this version of ParaView has its views elsewhere.
   explicit ViewsCover(QMainWindow& window);
 
   void set_shown(bool shown);
-  /// What stands in its middle.
+  /// The text in its middle.
   void set_words(const QString& words);
 
  protected:

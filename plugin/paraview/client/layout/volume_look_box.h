@@ -1,6 +1,6 @@
 #pragma once
 
-/// The box that says how the volume is shown: as clinical viewers do, or by the boundaries that are felt.
+/// The box to choose the volume's appearance: as in clinical viewers, or by the felt boundaries.
 
 #include <QComboBox>
 
@@ -20,9 +20,9 @@ class VolumeLookBox : public QComboBox {
 
   /// Of another scan; `chosen` none: it is shown as somebody else has set it.
   void set_looks(const std::vector<VolumeLook>& looks, std::optional<std::size_t> chosen);
-  /// The scene's boundaries are shown, whichever they become.
+  /// Whether the volume shows the scene's boundaries, whatever they become.
   bool is_felt() const;
-  /// Says so of what was restored; emits nothing.
+  /// Selects this for a restored state; emits nothing.
   void choose_felt() { setCurrentIndex(static_cast<int>(looks_.size())); }
 
  signals:

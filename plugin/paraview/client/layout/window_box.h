@@ -1,6 +1,6 @@
 #pragma once
 
-/// The box of gray windows: those that suit the scan, and the one that the slices have.
+/// The box of gray windows: those that suit the scan, and the slices' current one.
 
 #include <QComboBox>
 

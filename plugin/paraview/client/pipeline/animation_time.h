@@ -1,10 +1,10 @@
 #pragma once
 
-/// ParaView's time, which says which frame of a scan is shown.
+/// ParaView's time, which selects the frame of a scan.
 
 namespace palpate::plugin {
 
-/// Every view goes to it. No step that can be undone.
+/// Moves every view to this time. Not a step that can be undone.
 void set_animation_time(double time);
 
 }  // namespace palpate::plugin

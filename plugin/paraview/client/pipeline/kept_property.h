@@ -8,11 +8,11 @@ class pqPipelineSource;
 
 namespace palpate::plugin {
 
-/// Sets a text property of a source, for traces and state files. One step that can be undone, which ParaView's menu
-/// names `what`; where that is empty, none.
+/// Sets a text property of a source, for traces and state files. One step that can be undone, named `what` in
+/// ParaView's menu; if `what` is empty, no step.
 void keep_text(pqPipelineSource& source, const char* property, const std::string& text, const QString& what);
 
-/// Sets it without a trace and without a step.
+/// The same without trace and step.
 void put_text(pqPipelineSource& source, const char* property, const std::string& text);
 
 std::string kept_text_of(pqPipelineSource& source, const char* property);

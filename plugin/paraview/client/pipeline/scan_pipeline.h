@@ -34,12 +34,12 @@ class ScanPipeline : public ScanWorld {
   ClinicalViews& views() { return views_; }
   /// Null: there is none.
   pqPipelineSource* source() const { return source_; }
-  /// Takes over a reader that stands in the pipeline and its views as they are. A state file has restored them, and the
-  /// scan before goes; or Undo has.
+  /// Takes over a reader of the pipeline with its views as they are, which a state file or Undo has created. After a
+  /// state file the previous scan is removed.
   void restore(pqPipelineSource& reader, Brought brought);
   /// The names, in the pipeline, of scans that are visible in a view beside the one that is felt.
   QStringList others_shown() const;
-  /// Whether ParaView's own panels are in sight: what is to be known of its filters is told of the next scan.
+  /// Whether ParaView's own panels are visible: then the notes of the next scan include hints on ParaView's filters.
   void set_advanced(bool advanced) { advanced_ = advanced; }
 
   bool is_remote() const override;
@@ -72,15 +72,15 @@ class ScanPipeline : public ScanWorld {
 
   ScanModel* model_ = nullptr;
   QPointer<pqPipelineSource> source_;
-  std::unique_ptr<ServerSeries> on_server_;  // what the active server found, in its store
-  bool advanced_ = false;                    // ParaView's filters are in sight
+  std::unique_ptr<ServerSeries> on_server_;  // series found by the active server, in its store
+  bool advanced_ = false;                    // ParaView's filters are visible
   bool making_reader_ = false;
   QMetaObject::Connection time_;
   ClinicalViews views_;
-  QObject lifetime_;  // its end ends what is connected to ParaView
+  QObject lifetime_;  // its destructor ends the connections to ParaView
   ServerScan server_scan_;
   ScanLoader frame_loader_;
-  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
+  ScanLoader loader_;  // last: its thread must end before the members that its callbacks use are destroyed
 };
 
 }  // namespace palpate::plugin

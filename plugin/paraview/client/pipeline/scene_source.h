@@ -17,8 +17,8 @@ class SceneSource : public KeptText {
   using KeptText::KeptText;
 
   pqPipelineSource* source() const { return source_; }
-  /// Takes over a source that stands in the pipeline, as a state file restores it; null: it has brought none. The one
-  /// before goes.
+  /// Takes over a source of the pipeline, restored by a state file; null: the file has none. The previous source is
+  /// removed.
   void replace(pqPipelineSource* source);
 
   bool is_open() const override { return source_ != nullptr; }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Brings the voxels of a scan that a server reads to this machine, where the stylus is: from a copy on this machine
-/// that has the same hash, or else from the server, once in a session.
+/// Fetches the voxels of a server's scan to this machine, which has the stylus: from a local copy with the same hash,
+/// or else from the server, once in a session.
 
 #include <pqPipelineSource.h>
 
@@ -22,15 +22,15 @@
 
 namespace palpate::plugin {
 
-/// One scan at a time: a new request ends the last. All of it runs on the UI thread, in steps of about a tenth of a
-/// second, between which events are handled. No callback comes after cancel() or destruction.
+/// One scan at a time: a new request cancels the previous one. Everything runs on the UI thread, in steps of about a
+/// tenth of a second, between which events are handled. No callback comes after cancel() or destruction.
 class ServerScan : public QObject {
   Q_DECLARE_TR_FUNCTIONS(ServerScan)
 
  public:
   struct Found {
-    std::shared_ptr<const io::Volume> volume;  ///< null: none could be had
-    QString said;                              ///< why, or what a user should know of where it comes from
+    std::shared_ptr<const io::Volume> volume;  ///< null: not available
+    QString said;                              ///< why, or what the user should know about its source
   };
   using Progress = std::function<void(const QString& what, double done)>;
   using Done = std::function<void(const Found& found)>;
@@ -40,7 +40,7 @@ class ServerScan : public QObject {
   void get(pqPipelineSource& reader, int frame, std::vector<std::string> places, Progress progress, Done done);
   void cancel();
   bool is_busy() const { return done_ != nullptr; }
-  /// Forgets what was fetched: the server has gone.
+  /// Forgets fetched scans, because the server has gone.
   void forget() { fetched_.clear(); }
 
  private:
@@ -49,7 +49,7 @@ class ServerScan : public QObject {
   void finish(const std::shared_ptr<const io::Volume>& volume, const QString& said);
   bool ask(SlicesAsked asked, SlicesAnswered& answered);
   void start();
-  /// The next few slices; true once all are there. Before that `step` will come again.
+  /// Fetches the next few slices. Returns true when all are complete; before that `step` will be called again.
   bool more(SlicesAsked::What what, Step step);
   bool append_checked(SlicesAnswered& answered, int count);
 
@@ -64,15 +64,15 @@ class ServerScan : public QObject {
   std::vector<std::string> places_;
   Progress progress_;
   Done done_;
-  unsigned run_ = 0;  // counts up: a step of an earlier run is not taken
+  unsigned run_ = 0;  // number of the current run; steps of earlier runs are ignored
   io::Volume head_;
   std::vector<ScanCopy> copies_;
-  bool differs_ = false;  // a copy here is not the server's scan
+  bool differs_ = false;  // a local copy is not the server's scan
   std::vector<std::uint64_t> hashes_;
   io::Volume::Voxels voxels_;
   int slice_ = 0, at_a_time_ = 1;
   std::map<std::string, std::shared_ptr<const io::Volume>> fetched_;  // by hash
-  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
+  ScanLoader loader_;  // last: its thread must end before the members that its callbacks use are destroyed
 };
 
 }  // namespace palpate::plugin

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Brings the files of structures that lie beside a scan on a server to this machine, where they are felt. They are
-/// kept in a folder that only the user may read, until the scan goes. A scene names them as the server does
+/// Fetches the files of structures beside a server's scan to this machine, where they are felt. They are kept in a
+/// folder that only the user may read, until the scan is closed. A scene uses the server's names for them
 /// (plugin/structures/structure_files.h).
 
 #include <pqPipelineSource.h>
@@ -21,16 +21,16 @@
 
 namespace palpate::plugin {
 
-/// One scan at a time: a new request ends the last. All of it runs on the UI thread, in small steps between which
-/// events are handled. No callback comes after cancel() or destruction.
+/// One scan at a time: a new request cancels the previous one. Everything runs on the UI thread, in small steps between
+/// which events are handled. No callback comes after cancel() or destruction.
 class ServerStructures : public QObject {
  public:
-  /// `said`: why some are not here; empty if all are.
+  /// `said`: why some files are missing; empty if none is.
   using Done = std::function<void(const std::vector<std::filesystem::path>& files, const QString& said)>;
 
   /// `reader`: a PalpateDicomReader that is up to date.
   void get(pqPipelineSource& reader, Done done);
-  /// Also takes away what was fetched.
+  /// Also deletes the fetched files.
   void cancel();
 
  private:
@@ -42,11 +42,11 @@ class ServerStructures : public QObject {
 
   QPointer<pqPipelineSource> reader_;
   Done done_;
-  unsigned run_ = 0;  // counts up: a step of an earlier run is not taken
+  unsigned run_ = 0;  // number of the current run; steps of earlier runs are ignored
   std::unique_ptr<QTemporaryDir> folder_;
   std::vector<ServedFile> files_;
-  std::vector<std::filesystem::path> places_;  // of each of them, here
-  std::vector<std::filesystem::path> here_;    // those that have arrived
+  std::vector<std::filesystem::path> places_;  // of each of them, on this machine
+  std::vector<std::filesystem::path> here_;    // those that are complete
   std::size_t file_ = 0;
   int piece_ = 0;
 };

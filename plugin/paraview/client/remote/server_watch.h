@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether the server that ParaView works with is still there.
+/// Watches the connection to ParaView's server.
 
 #include <QObject>
 #include <QTimer>
@@ -21,14 +21,14 @@ class ServerWatch : public QObject {
   explicit ServerWatch(QObject* parent = nullptr);
   ~ServerWatch() override;
 
-  /// ParaView itself notices only at its next request, or after a minute. While a stylus is held that is too late, so
-  /// the server is asked twice a second.
+  /// Asks the server twice a second while a stylus is held. ParaView itself notices a lost server only at its next
+  /// request, or after a minute; that is too late.
   void be_attentive(bool on);
 
  signals:
-  /// The connection broke. Emitted before ParaView reacts: ParaView asks whether to save the state, and ends.
+  /// The connection broke. Emitted before ParaView reacts, which asks whether to save the state, and ends.
   void lost();
-  /// ParaView is about to leave a server in good order: everything that is on it goes.
+  /// ParaView is about to leave a server normally: everything on it will be removed.
   void leaving();
 
  private:

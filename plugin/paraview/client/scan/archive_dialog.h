@@ -1,6 +1,6 @@
 #pragma once
 
-/// Entering an archive: where it is, what it and this program are called there.
+/// The dialog to enter an archive: its address, its AE title and ours.
 
 #include <QDialog>
 
@@ -15,18 +15,18 @@ class QSpinBox;
 
 namespace palpate::plugin {
 
-/// How long an archive took to answer an echo, ms. Throws as io::echo().
+/// The time that an archive took to answer an echo, ms. Throws as io::echo() does.
 double echo_ms(const io::Archive& archive);
 
 class ArchiveDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// Asks in a background that outlives the dialog, so that an archive that does not answer does not delay closing.
+  /// `echoing` outlives the dialog, so an archive that does not answer does not delay closing.
   ArchiveDialog(Job& echoing, QWidget* parent);
   ~ArchiveDialog() override;
 
-  /// Of the archive that was entered.
+  /// The name of the entered archive.
   QString name() const;
 
  public slots:

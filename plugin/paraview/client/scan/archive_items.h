@@ -1,6 +1,6 @@
 #pragma once
 
-/// The lines of what an archive holds: studies, and below them their series.
+/// The lines of an archive's contents: studies, and below them their series.
 
 #include <QHash>
 #include <QIcon>
@@ -15,17 +15,17 @@ class QTreeWidgetItem;
 
 namespace palpate::plugin {
 
-/// A study, with a line that stands for its series until they are known.
+/// A study, with a placeholder line for its series until they are known.
 void add_study(QTreeWidget& tree, const io::ArchivedStudy& study);
 void add_series(QTreeWidgetItem& study, const std::vector<io::ArchivedSeries>& series);
-/// Pictures, by the UID of their series, for the lines that have one.
+/// Shows pictures for the lines of these series (by UID).
 void show_pictures(QTreeWidget& tree, const QHash<QString, QIcon>& pictures);
 
-/// Of a line's study, also where it is a series; empty where it is neither.
+/// The study UID of a line, which may be a study or a series; empty for other lines.
 QString study_of(const QTreeWidgetItem& item);
-/// Of what is fetched where the line is chosen: a series or a study. Empty where it is neither.
+/// The UID that is fetched when the line is chosen: a series' or a study's. Empty for other lines.
 QString uid_of(const QTreeWidgetItem& item);
-/// Whether a study's series are not known yet.
+/// Whether the series of a study are not yet known.
 bool is_unlisted(const QTreeWidgetItem& item);
 
 }  // namespace palpate::plugin

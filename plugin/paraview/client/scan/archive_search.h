@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fields of what is searched for in an archive.
+/// The fields of a search in an archive.
 
 #include <QTimer>
 #include <QWidget>
@@ -20,12 +20,13 @@ class ArchiveSearch : public QWidget {
  public:
   explicit ArchiveSearch(QWidget* parent = nullptr);
 
-  /// None while a date is begun and not whole, unless that is asked for: the archive's code then says what a date is.
+  /// The query; none while a date is incomplete. With `begun_date` the incomplete date is passed on, so that the
+  /// archive's code explains the format of dates.
   std::optional<io::ArchiveQuery> query(bool begun_date) const;
   void focus();
 
  signals:
-  /// A while after something was typed, or at once where it is asked for.
+  /// Emitted a while after typing, or at once on request.
   void wanted(bool begun_date);
 
  private:

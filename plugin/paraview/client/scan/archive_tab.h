@@ -1,6 +1,6 @@
 #pragma once
 
-/// The archives (PACS) beside the folder: search as one types, studies and their series, fetched in the background.
+/// The tab of archives (PACS): search while typing, studies and their series, fetched in the background.
 
 #include <QHash>
 #include <QIcon>
@@ -36,20 +36,20 @@ class ArchiveTab : public QWidget {
   explicit ArchiveTab(QWidget* parent = nullptr);
   ~ArchiveTab() override;
 
-  /// `in_use` returns the folders and files that are open, of this run or not. They are not deleted while they are
-  /// open.
+  /// `in_use` returns the folders and files that are open, whether fetched in this run or not. They are not deleted
+  /// while open.
   void set_in_use(std::function<std::vector<std::filesystem::path>()> in_use) { in_use_ = std::move(in_use); }
-  /// Whether a folder was fetched in this run, and goes with it.
+  /// Whether a folder was fetched in this run, and is deleted at its end.
   bool has_fetched(const std::string& folder) const { return run_.holds(folder); }
-  /// The picture of a series that was opened, for its line here.
+  /// The picture of an opened series, for its line here.
   void set_picture(const QString& series_uid, const QImage& picture);
 
  signals:
-  /// A study or series lies in a folder, and can be opened.
+  /// A study or series was fetched into a folder, and can be opened.
   void fetched(const QString& folder);
 
  protected:
-  /// Archives may have been entered elsewhere meanwhile.
+  /// Reads the archives again, which may have changed elsewhere.
   void showEvent(QShowEvent* event) override;
 
  private:
@@ -87,13 +87,13 @@ class ArchiveTab : public QWidget {
   std::function<std::vector<std::filesystem::path>()> in_use_;
   std::vector<io::Archive> entered_;
   QHash<QString, QIcon> pictures_;  // by series UID
-  std::vector<QString> unlisted_;   // studies whose series are to be asked for
+  std::vector<QString> unlisted_;   // studies whose series are to be requested
   FetchedRun run_;
   Job echoing_;
   Job finding_;
   Job listing_;
   Job counting_;
-  Job fetching_;  // last: its files lie in the run
+  Job fetching_;  // last: its files are in run_
 };
 
 }  // namespace palpate::plugin

@@ -1,15 +1,15 @@
 #pragma once
 
-/// What archives say, for the panel: their messages name the options of the command line, the panel has fields.
+/// Adapts messages about archives to the panel: they name command-line options, while the panel has fields.
 
 #include <QString>
 
 namespace palpate::plugin {
 
-/// The label of the field for an option of `palpate archive add`, as "--host"; empty: the panel has none.
+/// The label of the field for an option of `palpate archive add`, such as "--host"; empty: there is no such field.
 QString label_of(const QString& option);
 
-/// The same text with the panel's fields in place of options.
+/// The text with field labels in place of options.
 QString in_fields(const QString& said);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The filter of the scan: what the stylus feels, and whether the views show it.
+/// The filter of the scan: which one is felt, and whether the views show it.
 
 #include <QWidget>
 
@@ -24,8 +24,8 @@ class ScanModel;
 class ScanPipeline;
 class SessionController;
 
-/// The row of the filter: the scene holds the filter, and this row asks for another one. The voxels are filtered in the
-/// background; the scene is edited when they are ready. The same happens when undo brings a scene back.
+/// The row of the filter. The scene holds the filter, and this row requests another one: the voxels are filtered in the
+/// background, and the scene is edited when they are ready. The same happens when undo restores a scene.
 class FilterRow : public QWidget {
   Q_OBJECT
 
@@ -35,9 +35,9 @@ class FilterRow : public QWidget {
 
   /// Another scan, or none.
   void refresh();
-  /// The scan goes: what was chosen for it is not wanted any more. What undo brings back is.
+  /// The scan is closed: cancels a requested filter, but not one that undo restores.
   void give_up();
-  /// "Gaussian filter of 1 mm", and what the views show where that is not the same; empty without a filter.
+  /// "Gaussian filter of 1 mm", and what the views show if they differ; empty without a filter.
   QString in_words() const;
 
  private:
@@ -61,11 +61,11 @@ class FilterRow : public QWidget {
   QCheckBox* shown_;
   QProgressBar* progress_;
   QLabel* message_;
-  bool brought_back_ = false;                 // what is computed is for a scene that the pipeline has already
-  std::weak_ptr<const io::Volume> filtered_;  // the scan that is being filtered; through what, and what follows
+  bool brought_back_ = false;  // the filter being computed belongs to a scene that is already in the pipeline
+  std::weak_ptr<const io::Volume> filtered_;  // the scan that is being filtered
   io::Filter through_;
   std::function<void()> ready_;
-  ScanLoader loader_;  // last: its thread is to end before all that its callbacks use
+  ScanLoader loader_;  // last: its thread must end before the members that its callbacks use are destroyed
 };
 
 }  // namespace palpate::plugin

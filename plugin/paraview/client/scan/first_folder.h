@@ -7,8 +7,8 @@
 
 namespace palpate::plugin {
 
-/// Opens the folder that the command line of `plugin/run view` names, once ParaView has a server to show it with. With a
-/// folder or without one ParaView's welcome is left out: the start page stands there. Both end with `parent`.
+/// Opens the folder on the command line of `plugin/run view` as soon as ParaView has a server. ParaView's welcome
+/// dialog is skipped, because the start page replaces it. Both end with `parent`.
 void open_first_folder(QObject& parent, const std::function<void(const std::string&)>& open);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The frame of a scan that has several: steps, and a slider that follows ParaView's time.
+/// The frame of a scan with several frames: step buttons, and a slider that follows ParaView's time.
 
 #include <QWidget>
 

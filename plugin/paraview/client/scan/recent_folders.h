@@ -1,16 +1,16 @@
 #pragma once
 
-/// Folders that scans were opened from, the newest first; remembered from one start of the program to the next.
+/// Folders from which scans were opened, the newest first; kept for the next start of the program.
 
 #include <QString>
 #include <QStringList>
 
 namespace palpate::plugin {
 
-/// Those that are still there.
+/// Those that still exist.
 QStringList recent_folders();
 void remember_folder(const QString& folder);
-/// Where a dialog for a folder begins: beside the one that was last opened; empty if there is none.
+/// The initial place of a dialog for a folder: beside the latest one; empty if there is none.
 QString last_place();
 
 }  // namespace palpate::plugin

@@ -30,20 +30,20 @@ class ScanSection : public QWidget {
 
   /// Opens a folder or file, as the active server names it, and remembers it.
   void open(const std::string& path);
-  /// The same once what was dropped is taken: whoever dropped it waits for that, and a question may come first.
+  /// The same after a drop was accepted: the source of the drop waits for that, and open() may ask a question first.
   void open_later(const QString& path);
-  /// Brings the archives in front of the folder.
+  /// Shows the tab of archives.
   void show_archive();
-  /// Asks for a folder and opens it.
+  /// Lets the user choose a folder, and opens it.
   void ask_folder();
-  /// Asks for a file that holds whole scans and opens it.
+  /// Lets the user choose a file with whole scans, and opens it.
   void ask_file();
   /// Notes on the scan, and its frames: visible also when the section is folded.
   QWidget& notes() { return *notes_; }
 
  signals:
   void thumbnail_drawn(std::size_t series, const QImage& picture);
-  /// Places under the pointer are to be written in RAS.
+  /// Whether positions under the pointer are shown in RAS.
   void ras_wanted(bool on);
 
  protected:

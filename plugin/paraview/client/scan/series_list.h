@@ -1,6 +1,6 @@
 #pragma once
 
-/// The series of the folder that is open, to be chosen from.
+/// The series of the open folder, for the user to choose from.
 
 #include <QImage>
 #include <QListWidget>
@@ -29,7 +29,7 @@ class SeriesList : public QListWidget {
   void draw_thumbnails(const FoundList& found);
 
   ScanModel& model_;
-  ScanLoader thumbnails_;  // last: its thread is to end before all that its callbacks use
+  ScanLoader thumbnails_;  // last: its thread must end before the members that its callbacks use are destroyed
 };
 
 }  // namespace palpate::plugin
