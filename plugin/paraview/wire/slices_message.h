@@ -16,7 +16,7 @@ namespace palpate::plugin {
 struct SlicesAsked {
   enum class What : int { head, hashes, voxels, structures, structure_pieces };
   What what = What::head;
-  int frame = 0;  ///< of a series with several images at a position, from 0; of structures' pieces: the file
+  int frame = 0;  ///< of a series with several images at a position, from 0; for pieces of structures: the file
   int first = 0;  ///< slice, or piece (structure_files_message.h)
   int count = 0;
 };
@@ -30,8 +30,8 @@ struct SlicesAnswered {
   io::Volume::Voxels voxels;          ///< rescaled; slices read apart may differ in type
 };
 
-/// Takes the slices from the store of the process if it holds the scan. Otherwise it reads only the slices that are
-/// asked for. Series with several images at a position are loaded whole.
+/// Takes the slices from the process's store if it holds the scan; otherwise reads only the requested slices. Series
+/// with several images at a position are loaded whole.
 SlicesAnswered answer(const io::Series& series, const SlicesAsked& asked);
 
 /// A volume without its voxels: geometry, rescale, unit, modality, part of the body, padding, frame of reference, and

@@ -1,6 +1,6 @@
 #pragma once
 
-/// One boundary in the list of tissues: whether it is felt, its color, its name, from which side, and how strongly.
+/// A boundary in the list of tissues: switch, color, name, direction and strength.
 
 #include <QCoreApplication>
 #include <QObject>
@@ -21,26 +21,26 @@ class QToolButton;
 
 namespace palpate::plugin {
 
-/// The surface between the same two tissues that is felt the other way, if it stands behind that mode in the scene.
+/// The mode for the same surface in the opposite direction, if it follows `mode` in the scene.
 std::optional<std::size_t> way_back_of(const modes::Scene& scene, std::size_t mode);
 
 class BoundaryRow : public QObject {
   Q_DECLARE_TR_FUNCTIONS(BoundaryRow)
 
  public:
-  /// In a grid of BoundaryRow::columns. Its widgets belong to `parent`; it goes before them. A boundary and its way
-  /// back are one row, with a direction.
+  /// In a grid of BoundaryRow::columns. Its widgets belong to `parent`, which must outlive it. A boundary and its
+  /// opposite share one row, with a direction.
   BoundaryRow(SceneModel& model, std::size_t mode, int row, QWidget& parent, QGridLayout& grid);
 
   static constexpr int columns = 6;
   static constexpr int name_column = 2;
 
   std::size_t mode() const { return mode_; }
-  /// As the scene has it now.
+  /// Shows the scene's present values.
   void show_values();
-  /// Whether it is felt, from any side.
+  /// Whether it is felt, from either side.
   bool is_felt() const;
-  /// The names of those that a hand cannot tell from it by their strength.
+  /// The names of boundaries that a hand cannot distinguish from it by strength.
   void set_alike(const QStringList& others);
 
  private:
@@ -52,7 +52,7 @@ class BoundaryRow : public QObject {
   void set_felt(const QString& what, bool felt);
   const modes::Mode& of_scene() const { return model_.scene().modes[mode_]; }
 
-  enum Direction { in, out, both };  // as the box has them
+  enum Direction { in, out, both };  // in the order of the box
 
   SceneModel& model_;
   std::size_t mode_;
@@ -65,9 +65,9 @@ class BoundaryRow : public QObject {
   QLabel* alike_ = nullptr;
 };
 
-/// A strength as one number: the largest, N.
+/// The strength as one number: the curve's maximum, N.
 double strength_of(const modes::Mode& mode);
-/// The same curve, as strong as that.
+/// Scales the curve to this maximum.
 void scale_strength(modes::Mode& mode, double newtons);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A line from the bottom to the top of a chart.
+/// A vertical line across a chart.
 
 #include <vtkChart.h>
 #include <vtkContextItem.h>
@@ -16,7 +16,7 @@ class ChartMark : public vtkContextItem {
       void set_chart(vtkChart* chart) {
     chart_ = chart;
   }
-  /// How far along the chart's width, 0 to 1; elsewhere: none. Whether it is another place than before.
+  /// Its position along the chart's width, 0 to 1; other values hide it. Returns whether it has moved.
   bool set_part(double part);
   bool Paint(vtkContext2D* painter) override;
 

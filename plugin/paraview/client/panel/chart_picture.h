@@ -1,6 +1,6 @@
 #pragma once
 
-/// The charts of the command line in the panel: the same drawing, and what is under the pointer.
+/// Shows the command line's charts in the panel, and reports the pointer's position.
 
 #include <QImage>
 #include <QWidget>
@@ -19,15 +19,15 @@ class ChartPicture : public QWidget {
   /// `height`: of a panel, pixels.
   explicit ChartPicture(int height, QWidget* parent = nullptr);
 
-  /// Panels below one another over the same x axis, which runs from 0 to `length`; none: an empty place with `words`.
+  /// Panels below each other with a common x axis from 0 to `length`; without charts, an empty area with `words`.
   void show_charts(std::vector<Chart> charts, double length, const QString& words = {});
-  /// A line across all panels at x; none takes it away.
+  /// A line across all panels at x; none removes it.
   void set_cursor(std::optional<double> x);
 
  signals:
-  /// The x under the pointer; NaN where it has left.
+  /// The x under the pointer; NaN after it has left.
   void pointed(double x);
-  /// The x where the left button is down.
+  /// The x of a press or drag with the left button.
   void picked(double x);
 
  protected:
@@ -45,7 +45,7 @@ class ChartPicture : public QWidget {
   double length_ = 0;
   QString words_;
   std::optional<double> cursor_;
-  QImage picture_;  // null: to be drawn
+  QImage picture_;  // null: must be drawn
 };
 
 }  // namespace palpate::plugin

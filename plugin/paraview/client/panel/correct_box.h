@@ -1,6 +1,6 @@
 #pragma once
 
-/// What corrects a structure by touch: the doubtful places of its outline, the tools, and the way out.
+/// The box to correct a structure by touch: the doubtful places of its outline, the tools, and save and send.
 
 #include <QWidget>
 
@@ -25,19 +25,19 @@ class CorrectBox : public QWidget {
  public:
   explicit CorrectBox(CorrectionModel& model, QWidget* parent = nullptr);
 
-  /// What the edits have changed, in words.
+  /// The effect of the edits, in words.
   void set_change(const QString& words);
-  /// How far the looking for doubtful places is, 0 to 1; less than 0: it is not done.
+  /// The progress of the search for doubtful places, 0 to 1; below 0: no search.
   void set_looking(double done);
-  /// Whether what is felt has all that was drawn: only then it goes out.
+  /// Whether every stroke is already felt: only then can the outline be saved or sent.
   void set_whole(bool whole);
-  /// Its bar stands beside this box, which is hidden where nothing is corrected.
+  /// Its progress bar is outside this box, which is hidden while no structure is corrected.
   OutlineOut& out() { return *out_; }
 
  signals:
   void save_wanted();
   void send_wanted();
-  /// The stylus is to be held in the slice of the marked view, or to be free.
+  /// The stylus is to be held in the slice of the active view, or to be free.
   void slice_wanted(bool held);
 
  private:
@@ -64,7 +64,7 @@ class CorrectBox : public QWidget {
   QPushButton* save_ = nullptr;
   QPushButton* send_ = nullptr;
   OutlineOut* out_ = nullptr;
-  double looking_ = -1;  // for doubtful places: how far
+  double looking_ = -1;  // progress of the search for doubtful places
   bool whole_ = false;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A transfer function as a curve over a scan's histogram, with its axes in words, a number for the node that is
-/// chosen, and steps by keyboard.
+/// A transfer function as a curve over a scan's histogram, with axis titles, a number field for the chosen node, and
+/// control by keyboard.
 
 #include <vtkSmartPointer.h>
 
@@ -28,21 +28,21 @@ class CurveEditor : public QWidget {
   Q_OBJECT
 
  public:
-  /// `name` is its object name; `across` and `up` say what the axes are, with their units.
+  /// `name`: the object name; `across` and `up`: the axis titles, with units.
   CurveEditor(const QString& name, const QString& across, const QString& up, QWidget* parent = nullptr);
   ~CurveEditor() override;
 
-  /// What it is drawn over, and the curve's greatest value.
+  /// The histogram, its axis title, and the largest value of the curve.
   void set_frame(const Counts& counts, const QString& across, double top);
   /// Replaces the curve; emits no signal.
   void set_curve(const modes::TransferFunction& curve, const QColor& color);
   modes::TransferFunction curve() const;
-  /// A line at what is under the pointer in a slice; none: no line.
+  /// A line at the value under the pointer in a slice; none: no line.
   void set_mark(std::optional<double> at);
 
  signals:
-  void dragged();   ///< the curve has moved, and may go on
-  void finished();  ///< the button was let go, or keys and numbers have come to rest
+  void dragged();   ///< the curve has moved; the drag may continue
+  void finished();  ///< the button was released, or changes by keys and numbers have ended
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -62,7 +62,7 @@ class CurveEditor : public QWidget {
   void move();
 
   std::unique_ptr<Functions> functions_;
-  std::unique_ptr<Block> block_;  // the whole curve, while it is dragged
+  std::unique_ptr<Block> block_;  // the curve while it is dragged
   vtkSmartPointer<ChartMark> mark_;
   pqTransferFunctionWidget* widget_;
   QLabel* axes_;
@@ -76,8 +76,8 @@ class CurveEditor : public QWidget {
   QColor color_;
   modes::Interpolation interpolation_ = modes::Interpolation::linear;
   bool setting_ = false;
-  bool held_ = false;   // the button, in the chart
-  bool moved_ = false;  // since it was pressed
+  bool held_ = false;   // whether the button was pressed in the chart
+  bool moved_ = false;  // since the press
 };
 
 }  // namespace palpate::plugin

@@ -25,25 +25,25 @@ class CurveProfile : public QWidget {
   CurveProfile(SessionController& session, SceneModel& model, StrokeRunner& strokes, QWidget* parent = nullptr);
   ~CurveProfile() override;
 
-  /// The stroke that the user has chosen. While it is not two different points, the line across the last place of
+  /// The stroke that the user has chosen. Until it has two different points, the line through the latest place of
   /// point_at() or touch_at() is used.
   void choose(const WantedStroke& stroke);
   /// The pointer is at this place in a slice; `gradient` of the scan's value. The place is used once the pointer has
-  /// rested, because the pointer passes over many places on its way to the curve.
+  /// rested, because it passes over many places on its way to the curve.
   void point_at(const glm::dvec3& place, const glm::dvec3& gradient);
-  /// A boundary holds the stylus at this place; `inward`: from the proxy to the probe. It is used once the stylus has
-  /// rested, too.
+  /// A boundary holds the stylus at this place; `inward`: from the proxy to the probe. Also used once the stylus has
+  /// rested.
   void touch_at(const glm::dvec3& place, const glm::dvec3& inward);
-  /// For another scan: forgets the places of the last one.
+  /// Another scan: forgets the previous one's places.
   void forget();
-  /// The curve has come to rest: the next drag is compared with what is felt now.
+  /// The curve has come to rest: the next drag is compared with the present curve.
   void rest();
 
  protected:
   void showEvent(QShowEvent* event) override;
 
  private:
-  /// Where a line crosses the scan.
+  /// A line across the scan.
   struct Across {
     glm::dvec3 place{0}, inward{0};
     bool touched = false;

@@ -22,17 +22,17 @@ class CurvesSection : public QWidget {
   Q_OBJECT
 
  public:
-  /// Whether B, held, takes the last step back; not while another section shows what was before.
+  /// Whether holding B undoes the last step; off while another section shows its own earlier state.
   void set_key_undoes(bool undoes) { key_undoes_ = undoes; }
   CurvesSection(SceneModel& model, SessionController& session, StrokeRunner& strokes, QWidget* parent = nullptr);
 
   void set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit);
-  /// What is under the pointer in a slice, marked in the histograms; none: nothing is.
+  /// The sample under the pointer in a slice, marked in the histograms; none: no mark.
   void mark(const std::optional<io::Sample>& pointed);
   CurveProfile& profile() { return *profile_; }
 
  protected:
-  /// The key B shows and feels the scene without the last edit while it is held.
+  /// While the key B is held, the scene is shown and felt without the last edit.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
@@ -52,7 +52,7 @@ class CurvesSection : public QWidget {
   CurveProfile* profile_;
   QLabel* message_;
   bool key_undoes_ = true;
-  bool before_ = false;  // the last edit is taken back while a key is held
+  bool before_ = false;  // the last edit is undone while a key is held
 };
 
 }  // namespace palpate::plugin

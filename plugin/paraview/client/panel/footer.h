@@ -1,6 +1,6 @@
 #pragma once
 
-/// What stays in sight whatever is folded: what is felt, and the way out.
+/// The part of the panel that always stays visible: what is felt, and the button that releases the force.
 
 #include <QWidget>
 
@@ -23,10 +23,10 @@ class Footer : public QWidget {
   explicit Footer(SessionController& session, const SceneModel& model, QWidget* parent = nullptr);
 
   /// What is felt, in words: scan, frame, scene; and whether there is a scan.
-  /// While an outline is corrected, the mark button does that.
+  /// While an outline is corrected, the mark button corrects it.
   void set_corrects(bool corrects);
   void set_felt(const QString& words, bool scan_open);
-  /// What developers ask for is shown.
+  /// Whether details for developers are shown.
   bool is_technical() const;
 
  signals:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A strip chart of the last seconds' force.
+/// A strip chart of the force in the last seconds.
 
 #include <QWidget>
 
@@ -16,7 +16,7 @@ class ForceStrip : public QWidget {
   void add(double force_n);
   /// The force at the strip's upper edge, N.
   static double top_of(double largest_n, double limit_n);
-  /// N: a line that the force cannot pass.
+  /// A line at the force limit, N.
   void set_limit(double limit_n) { limit_n_ = limit_n; }
   QSize sizeHint() const override { return {200, 56}; }
 

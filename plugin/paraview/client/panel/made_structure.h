@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is made of a structure in the background: how large it is, how it is drawn, and what its edits have changed.
+/// Data of a structure that are computed in the background: its size, its drawing, and the change by its edits.
 
 #include <memory>
 #include <optional>
@@ -16,27 +16,27 @@ namespace palpate::plugin {
 
 struct WantedStructure {
   io::Structure structure;
-  std::vector<io::Edit> edits;                            ///< of its outline, the scene's, and contours that make it
-  std::shared_ptr<const io::StructureMeasures> measures;  ///< where they are known
-  std::shared_ptr<const io::DistanceField> outline;       ///< before its edits, as it is felt; null: it is not felt
-  vtkSmartPointer<vtkPolyData> surface_before;            ///< of the file's outline, where it is known
+  std::vector<io::Edit> edits;  ///< the scene's edits of its outline, including contours that define it
+  std::shared_ptr<const io::StructureMeasures> measures;  ///< if known
+  std::shared_ptr<const io::DistanceField> outline;       ///< the felt field, without the edits; null: not felt
+  vtkSmartPointer<vtkPolyData> surface_before;            ///< of the file's outline, if known
   bool draws = false;
   std::shared_ptr<const io::Volume> scan;
 };
 
 struct MadeStructure {
   io::Structure structure;
-  std::weak_ptr<const io::Volume> scan;  ///< that it was made on
+  std::weak_ptr<const io::Volume> scan;  ///< the scan that it was computed for
   std::vector<io::Edit> edits;
-  std::string error;                                      ///< empty if all was made
+  std::string error;                                      ///< empty if everything was computed
   std::shared_ptr<const io::StructureMeasures> measures;  ///< of the outline in its file
-  std::shared_ptr<const io::DistanceField> outline;       ///< that the edits change; null where it is not drawn
-  DrawnStructure drawn;                                   ///< without a distance where it is not drawn
+  std::shared_ptr<const io::DistanceField> outline;       ///< the input of the edits; null if not drawn
+  DrawnStructure drawn;                                   ///< without a distance if not drawn
   std::optional<io::OutlineChange> change;                ///< by the edits; none if there are none
-  OutlineEdges edges;                                     ///< the scan's own at the file's outline
+  OutlineEdges edges;                                     ///< of the scan, at the file's outline
 };
 
-/// Fields are shared with those who feel them. Throws nothing.
+/// Shares its fields with the session. Throws nothing.
 MadeStructure make_structure(const WantedStructure& wanted);
 
 }  // namespace palpate::plugin

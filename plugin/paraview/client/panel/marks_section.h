@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's section of marks: lists what was marked, measures between what is chosen, renames, moves and deletes.
+/// The panel's section of marks: lists them, measures between chosen ones, renames, moves and deletes.
 
 #include <QWidget>
 
@@ -26,16 +26,16 @@ class MarksSection : public QWidget {
  public:
   MarksSection(MarksModel& model, SessionController& session, QWidget* parent = nullptr);
 
-  /// How many marks and measures there are; empty if there are none.
+  /// The number of marks and measurements, in words; empty if there are none.
   QString in_words() const;
   void tell(const QString& message, bool problem = false);
   MarksSender& sender() { return *sender_; }
 
  signals:
   void listed();
-  /// The marks that are chosen, in the order in which they were.
+  /// The chosen marks, in the order of choice.
   void chosen(const std::vector<std::size_t>& marks);
-  /// The user asks to see a mark: the slices go there.
+  /// The user wants to see a mark: the slices go there.
   void place_wanted(const glm::dvec3& place_mm);
   void send_wanted();
 
@@ -72,7 +72,7 @@ class MarksSection : public QWidget {
   QToolButton* undo_ = nullptr;
   QPushButton* send_ = nullptr;
   MarksSender* sender_ = nullptr;
-  std::vector<std::size_t> chosen_;  // marks, in the order in which they were chosen
+  std::vector<std::size_t> chosen_;  // chosen marks, in the order of choice
   bool listing_ = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Sends what was marked into an archive, in the background.
+/// Sends marks and measurements to an archive, in the background.
 
 #include <memory>
 
@@ -18,7 +18,7 @@ class MarksSender : public WorkBar {
  public:
   explicit MarksSender(QWidget* parent = nullptr);
 
-  /// As `palpate export` and `palpate send` do, from a folder that is gone afterwards. `done`: all of it is there.
+  /// As `palpate export` followed by `palpate send`, through a temporary folder. `done`: everything is in the archive.
   void send(const io::Archive& archive, const io::Series& series, const std::shared_ptr<const io::Volume>& volume,
             const Marks& marks, std::function<void()> done);
 

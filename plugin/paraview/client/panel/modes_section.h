@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's fifth section: every mode of the scene with its parameters, and what the plan leaves out.
+/// The panel's fifth section: all modes of the scene with their parameters, and the parts that the plan leaves out.
 
 #include <QWidget>
 
@@ -20,13 +20,13 @@ class ModesSection : public QWidget {
  public:
   ModesSection(SceneModel& model, SessionController& session, QWidget* parent = nullptr);
 
-  /// The plan is shown anew.
+  /// Shows the plan again.
   void refresh();
-  /// What the plan leaves out is for developers.
+  /// Shows the parts that the plan leaves out; they are for developers.
   void show_technical(bool shown);
 
  private:
-  /// What a change is told: a refused one goes back to what is felt.
+  /// The callback of a change: if it is refused, the widgets return to the felt values.
   SceneModel::Told told();
   void build_parameters(QWidget& parent);
   void list_modes();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How far a structure that is corrected is from what the stylus is kept out of.
+/// The distances between a corrected structure and the structures that the stylus is kept out of.
 
 #include <functional>
 #include <memory>
@@ -13,10 +13,10 @@
 
 namespace palpate::plugin {
 
-/// A structure as it is felt, and a box that holds it.
+/// The field of a felt structure, and a box that contains it.
 struct KeepOut {
   std::string name;
-  double margin_mm = 0;  ///< at which its force begins
+  double margin_mm = 0;  ///< from its surface, where its force begins
   std::shared_ptr<const io::DistanceField> outline;
   io::StructureBox box;
   bool operator==(const KeepOut& other) const {
@@ -26,22 +26,22 @@ struct KeepOut {
 
 struct OutlineMargin {
   std::string name;
-  double keep_out_mm = 0;  ///< at which its force begins
-  double mm = 0;           ///< the smallest distance between the surfaces; below 0: how deep one reaches into the other
+  double keep_out_mm = 0;  ///< from its surface, where its force begins
+  double mm = 0;           ///< the smallest distance between the surfaces; below 0: the depth of their overlap
 };
 
-/// Measures in the background: it takes up to seconds.
+/// Measures in the background, which takes up to seconds.
 class OutlineMargins {
  public:
   /// `measured`: of() has changed.
   explicit OutlineMargins(std::function<void()> measured) : measured_(std::move(measured)) {}
 
-  /// Again where the outline or one of the others has changed. `box` holds the outline.
+  /// Measures again if the outline or one of the others has changed. `box` contains the outline.
   void measure(const std::shared_ptr<const io::DistanceField>& outline, const io::StructureBox& box,
                const std::vector<KeepOut>& keep_outs);
   /// Another scan.
   void forget();
-  /// Those of this outline; empty while they are measured, and of any other.
+  /// The margins of this outline; empty while they are being measured, and for any other outline.
   std::vector<OutlineMargin> of(const std::shared_ptr<const io::DistanceField>& outline) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Writes a corrected outline into a file or sends it to an archive, in the background.
+/// Writes a corrected outline to a file or sends it to an archive, in the background.
 
 #include <filesystem>
 #include <memory>
@@ -13,11 +13,11 @@
 
 namespace palpate::plugin {
 
-/// A structure as it is felt, and the scan that it was corrected on.
+/// The field of a corrected structure, and the scan on which it was corrected.
 struct CorrectedOutline {
   io::Structure structure;
   std::shared_ptr<const io::DistanceField> distance;
-  io::Series series;  ///< without images where they are on a server alone: no DICOM can be written
+  io::Series series;  ///< without images if they are only on a server: then DICOM cannot be written
   int frame = 0;
   std::shared_ptr<const io::Volume> scan;
 };
@@ -28,10 +28,10 @@ class OutlineOut : public WorkBar {
  public:
   explicit OutlineOut(QWidget* parent = nullptr);
 
-  /// As `palpate correct` writes it. `overwrite`: the user was asked. `done`: it is written.
+  /// As `palpate correct` writes it. `overwrite`: the user has agreed. `done`: the file is written.
   void save(const CorrectedOutline& outline, const std::filesystem::path& file, bool as_contours, bool overwrite,
             std::function<void()> done);
-  /// As a DICOM SEG, from a folder that is gone afterwards. `done`: it is there.
+  /// As a DICOM SEG, through a temporary folder. `done`: it is in the archive.
   void send(const CorrectedOutline& outline, const io::Archive& archive, std::function<void()> done);
 };
 

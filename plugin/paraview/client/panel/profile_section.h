@@ -1,6 +1,6 @@
 #pragma once
 
-/// The force along a stroke between two points, as it would be felt now: it follows every edit.
+/// The force along a stroke between two points, with the scene as it is now; updated after every edit.
 
 #include <QWidget>
 
@@ -33,9 +33,9 @@ class ProfileSection : public QWidget {
   ~ProfileSection() override;
 
  signals:
-  /// Places are to be picked in the slices from now on, or no more.
+  /// Whether points are to be picked in the slices.
   void picking(bool on);
-  /// The points, or the speed.
+  /// The points or the speed have changed.
   void stroke_changed(const palpate::plugin::WantedStroke& stroke);
 
  public slots:
@@ -45,11 +45,11 @@ class ProfileSection : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  /// A profile, and what of it is shown.
+  /// A profile, and its part that is shown.
   struct Made {
     Profile profile;
     std::vector<Chart> charts;
-    QString met;  ///< where which boundary is met
+    QString met;  ///< the boundaries met, and where
   };
   static Made make(Profile profile);
 
@@ -77,7 +77,7 @@ class ProfileSection : public QWidget {
   WantedStroke stroke_;
   PathViews path_;
   std::shared_ptr<const Made> made_;
-  OpenViews::Following following_;  // of another scan the points are no longer
+  OpenViews::Following following_;  // the points are dropped when another scan opens
   Job job_{Job::Newer::follows};
 };
 

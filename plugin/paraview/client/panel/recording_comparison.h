@@ -1,6 +1,6 @@
 #pragma once
 
-/// Two recordings of the same stroke, compared place by place: a chart, and what it comes to in words.
+/// Compares two recordings of the same stroke, place by place: a chart, and a summary in words.
 
 #include <QWidget>
 
@@ -25,7 +25,7 @@ class RecordingComparison : public QWidget {
 
   explicit RecordingComparison(QWidget* parent = nullptr);
 
-  /// Compares in the background, and shows itself when it is done. Hides if one of them is missing.
+  /// Compares in the background, then becomes visible. Hidden if one of them is missing.
   void compare(const Recording& first, const Recording& second);
 
  signals:

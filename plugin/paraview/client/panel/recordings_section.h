@@ -1,6 +1,6 @@
 #pragma once
 
-/// Recordings looked at again in the views, and compared with one another.
+/// Plays recordings in the views, and compares them.
 
 #include <QWidget>
 
@@ -33,7 +33,7 @@ class RecordingsSection : public QWidget {
 
  private:
   struct Opened : RecordingComparison::Recording {
-    std::weak_ptr<const io::Volume> scan;  ///< that it is of
+    std::weak_ptr<const io::Volume> scan;  ///< its scan
   };
 
   QWidget* build_player();
@@ -53,13 +53,13 @@ class RecordingsSection : public QWidget {
   Playback playback_;
   Opened first_, second_;
   PathViews first_path_, second_path_;
-  OpenViews::Following following_;  // of another scan the recordings are no longer
+  OpenViews::Following following_;  // the recordings are dropped when another scan opens
   QLabel* name_ = nullptr;
   QWidget* player_ = nullptr;
   QToolButton* play_ = nullptr;
   QSlider* slider_ = nullptr;
   QComboBox* speed_ = nullptr;
-  QLabel* held_ = nullptr;  // why it cannot be played
+  QLabel* held_ = nullptr;  // the reason why it cannot be played
   QLabel* time_ = nullptr;
   ChartPicture* force_ = nullptr;
   RecordingComparison* comparison_ = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is about to go into an archive, and for whom: shown before anything is sent.
+/// Shows what will be sent to an archive, and for which patient, before anything is sent.
 
 #include <QDialog>
 #include <QString>
@@ -20,18 +20,18 @@ class SendDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// What is told beside patient, study and archive.
+  /// Texts shown beside patient, study and archive.
   struct Content {
-    QString title, what, report, note;  ///< without a report none is shown
+    QString title, what, report, note;  ///< no report is shown if it is empty
   };
   static Content of_marks(const io::Series& series, const Marks& marks);
   static Content of_outline(const QString& structure, const QString& change);
 
-  /// `archives`: those that were entered, not empty.
+  /// `archives`: the configured ones, at least one.
   SendDialog(const io::Series& series, const Content& content, std::vector<io::Archive> archives,
              QWidget* parent = nullptr);
 
-  /// The one that is chosen.
+  /// The chosen archive.
   const io::Archive& archive() const;
 
  private:

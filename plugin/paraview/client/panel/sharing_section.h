@@ -1,6 +1,6 @@
 #pragma once
 
-/// The switch that shares what is felt with 3D Slicer.
+/// The switch that shares the session with 3D Slicer.
 
 #include <QWidget>
 
@@ -18,7 +18,7 @@ class SharingSection : public QWidget {
  public:
   explicit SharingSection(SharingModel& model, QWidget* parent = nullptr);
 
-  /// "1 client", for the section's title; empty: it is off.
+  /// "1 client", for the section's title; empty: sharing is off.
   QString in_words() const;
 
  private:

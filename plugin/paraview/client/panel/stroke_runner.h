@@ -1,6 +1,6 @@
 #pragma once
 
-/// Runs a stroke through the scene as it is felt now, without a stylus.
+/// Runs a stroke through the present scene, without a stylus.
 
 #include <functional>
 #include <glm/vec3.hpp>
@@ -22,15 +22,15 @@ class StrokeRunner {
  public:
   explicit StrokeRunner(const SessionController& session) : session_(session) {}
 
-  /// What makes the profile, on any thread. Empty: nothing is felt, or the stroke is not whole. Throws with the reason
-  /// why the scene cannot be felt.
+  /// A function that computes the profile, on any thread. Empty if nothing can be felt or the stroke is incomplete. It
+  /// throws with the reason why the scene cannot be felt.
   std::function<Profile()> run(const WantedStroke& stroke);
-  /// A scan that is closed is not held.
+  /// Releases the scan when it is closed.
   void forget() { prepared_ = {}; }
 
  private:
   const SessionController& session_;
-  Prepared prepared_;  // fields of its own: the servo's stay where the stylus is
+  Prepared prepared_;  // with its own fields, so that the servo's bricks stay around the stylus
 };
 
 }  // namespace palpate::plugin

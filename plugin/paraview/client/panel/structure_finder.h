@@ -1,6 +1,6 @@
 #pragma once
 
-/// Looks for structures in files and folders, in the background: each of them once for a scan.
+/// Finds structures in files and folders, in the background. Each file is read once for a scan.
 
 #include <QString>
 
@@ -20,19 +20,19 @@ class StructureFinder {
  public:
   struct Found {
     io::StructureCatalogue catalogue;
-    bool asked = false;   ///< for them, by the user
-    bool served = false;  ///< by a server
-    QString problem;      ///< some of them are not here
+    bool asked = false;   ///< the user asked for the search
+    bool served = false;  ///< from a server
+    QString problem;      ///< why some of them are missing
   };
-  /// Called when all that was asked for meanwhile has been looked into.
+  /// Called when all places requested so far have been searched.
   using Take = std::function<void(const Found& found)>;
   using Fail = std::function<void(const QString& why)>;
 
   StructureFinder(Take take, Fail fail) : take_(std::move(take)), fail_(std::move(fail)) {}
 
-  /// Null: there is none.
+  /// Null: no scan.
   void set_scan(std::shared_ptr<const io::Volume> scan);
-  /// Another frame of the same scan: what was found stays.
+  /// Another frame of the same scan: the structures found remain.
   void set_frame(std::shared_ptr<const io::Volume> frame) { scan_ = std::move(frame); }
   void look_into(const std::vector<std::filesystem::path>& places);
   void look_into_asked(const std::vector<std::filesystem::path>& places);
@@ -44,7 +44,7 @@ class StructureFinder {
   std::shared_ptr<const io::Volume> scan_;
   std::set<std::filesystem::path> looked_into_;
   std::vector<std::filesystem::path> waiting_;
-  Found next_;  // but for its catalogue
+  Found next_;  // except for its catalogue
   Job job_{Job::Newer::follows};
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The panel's section of structures: lists what was outlined on the scan, and draws it or makes it felt by one press.
+/// The panel's section of structures: lists the structures outlined on the scan. One press draws a structure or makes
+/// it felt.
 
 #include <QWidget>
 
@@ -41,21 +42,21 @@ class StructuresSection : public QWidget {
                     QWidget* parent = nullptr);
   ~StructuresSection() override;
 
-  /// Looks for structures on a scan that has just been shown, in the folder that it is from; null: there is no scan.
+  /// Searches structures for a new scan, in its folder; null: there is no scan.
   void set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder);
-  /// Another frame of the scan. What is listed stays; what was made of the frame before is made anew.
+  /// Another frame of the scan. The list stays; everything computed for the previous frame is computed again.
   void set_frame(const std::shared_ptr<const io::Volume>& frame);
-  /// Looks into these files, too; `problem` is said where it is not empty.
+  /// Searches these files, too; shows `problem` unless it is empty.
   void add(const std::vector<std::filesystem::path>& files, const QString& problem);
-  /// How many can be felt on the scan, and how many cannot; empty if none was found.
+  /// The numbers of structures that can and cannot be felt on the scan, in words; empty if none was found.
   QString in_words() const;
   CorrectBox& correct_box() { return *correct_box_; }
-  /// The corrected structure's distance as it is felt; null: nothing is corrected, or it is not read yet.
+  /// The felt field of the corrected structure; null: no correction, or the structure is not read yet.
   std::shared_ptr<const io::DistanceField> corrected() const;
-  /// Whether it is drawn so that it can be seen.
+  /// Whether the corrected structure is visibly drawn.
   bool shows_corrected() const;
-  /// What its edits have changed, and how far it is from what the stylus is kept out of; empty: nothing was edited, or
-  /// it is not known yet.
+  /// The change by its edits, and its margins from structures that the stylus is kept out of; empty: no edits, or not
+  /// known yet.
   QString change_in_words() const;
   void tell(const QString& text, bool problem);
 
@@ -67,15 +68,15 @@ class StructuresSection : public QWidget {
   void dropEvent(QDropEvent* event) override;
 
  private:
-  /// One that was found, and what is known of it so far.
+  /// A structure that was found, and what is known of it so far.
   struct Entry {
     io::Structure structure;
-    std::string why_not;  ///< why it cannot be felt; empty where it can
-    Text off;             ///< that it lies wholly outside the scan; empty where it does not, or is not yet measured
+    std::string why_not;  ///< why it cannot be felt; empty if it can
+    Text off;             ///< a message if it is wholly outside the scan; empty if not, or not yet measured
     bool shown = false;
     std::string color;
-    std::vector<io::Edit> edits;  ///< of its outline, the scene's
-    MadeStructure made;           ///< the last that was made of it, perhaps of other edits
+    std::vector<io::Edit> edits;  ///< the scene's edits of its outline
+    MadeStructure made;           ///< the latest result, perhaps with other edits
   };
   using Edit = std::function<void(modes::Scene&)>;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Looks for tissues on the scan that is felt, in the background, and proposes what it found. Shows how far it is.
+/// Searches tissues in the felt scan, in the background, and proposes a scene. Shows the progress.
 
 #include <QProgressBar>
 
@@ -19,11 +19,11 @@ class TissueStudy : public QProgressBar {
   TissueStudy(SceneModel& model, SessionController& session, QWidget* parent = nullptr);
 
   void study(const std::shared_ptr<const io::Volume>& volume);
-  /// The scan goes.
+  /// The scan is closed.
   void cancel();
 
  signals:
-  /// `proposed`: the scene that it suggests, where the scan lies now. It is not felt yet.
+  /// `proposed`: the suggested scene, with the workspace of the present one. It is not felt yet.
   void studied(const std::shared_ptr<const palpate::plugin::ScanStudy>& study, const palpate::modes::Scene& proposed,
                const QString& unit);
 
@@ -33,7 +33,7 @@ class TissueStudy : public QProgressBar {
   SceneModel& model_;
   SessionController& session_;
   std::weak_ptr<const io::Volume> studied_;  // or being studied
-  ScanLoader job_;                           // last: its thread is to end before all that its callbacks use
+  ScanLoader job_;  // last: its thread must end before the members that its callbacks use are destroyed
 };
 
 }  // namespace palpate::plugin

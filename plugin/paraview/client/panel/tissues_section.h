@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's second section: the boundaries that can be felt, each with its switch, color, name and strength.
+/// The panel's second section: the boundaries that can be felt, each with switch, color, name and strength.
 
 #include <QWidget>
 
@@ -26,18 +26,18 @@ class TissuesSection : public QWidget {
  public:
   explicit TissuesSection(SceneModel& model, QWidget* parent = nullptr);
 
-  /// The scene that was proposed for the scan: first of the scenes to choose from.
+  /// The scene proposed for the scan: the first in the list of scenes.
   void set_proposed(const modes::Scene& scene);
-  /// Another scan is shown: nothing was found in it yet. The starting scene that suits it comes first of the others,
-  /// and those that are made for other scans last.
+  /// Another scan is shown, without a search so far. The suitable starting scene becomes the first of the others; those
+  /// for other types of scan come last.
   void forget_scan(const ScanHandle& shown);
-  /// The scene that the model has came with a state file.
+  /// The model's scene comes from a state file.
   void set_restored();
-  /// What the scene is: where it came from, and whether it was edited since.
+  /// The origin of the scene, and whether it was edited since.
   QString scene_in_words() const;
 
  signals:
-  /// The scene as it is can be had again: it was chosen from the list, or written into a file.
+  /// The present scene is saved: it was chosen from the list, or written to a file.
   void scene_kept();
 
  private:
@@ -54,16 +54,16 @@ class TissuesSection : public QWidget {
   void save_file();
 
   SceneModel& model_;
-  /// A scene to choose from: an item of the box.
+  /// A scene in the list.
   struct Choice {
     QString label;
     modes::Scene scene;
-    std::string text;       ///< of what is felt in it; empty: there is none yet
+    std::string text;       ///< of the scene; empty: not available yet
     std::string name = {};  ///< of a starting scene
-    QString made_for = {};  ///< what it suits, where that is another kind of scan
+    QString made_for = {};  ///< the type of scan that it suits, if that is not this one
   };
   std::vector<Choice> choices_;
-  std::map<std::string, int> edited_from_;  // text of an edited scene -> the choice that it was made of
+  std::map<std::string, int> edited_from_;  // text of an edited scene -> the choice that it was made from
   int choice_ = 0;
   std::optional<int> choosing_;
   bool edited_ = false;

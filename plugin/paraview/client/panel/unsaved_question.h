@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is not saved, in words, and the question what is to become of it.
+/// Unsaved work in words, and the question whether to save or discard it.
 
 #include <QString>
 #include <QWidget>
@@ -13,7 +13,7 @@ namespace palpate::plugin {
 QString in_words(const Unsaved& unsaved);
 
 enum class UnsavedAnswer { save, discard, cancel };
-/// `before`: what is about to be done, as "Another scan is opened."
+/// `before`: the action about to be done, such as "Another scan is opened."
 UnsavedAnswer ask_what_becomes_of(const Unsaved& unsaved, const QString& before, QWidget* parent);
 
 }  // namespace palpate::plugin

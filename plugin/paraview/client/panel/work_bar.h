@@ -1,6 +1,6 @@
 #pragma once
 
-/// A bar that shows how far something in the background is, and can cancel it. It is hidden while nothing is done.
+/// A bar with the progress of background work and a button to cancel it. Hidden while there is no work.
 
 #include <QWidget>
 
@@ -16,28 +16,28 @@ class WorkBar : public QWidget {
   Q_OBJECT
 
  public:
-  /// `name`: of the bar; that of its button is followed by "Cancel".
+  /// `name`: of the bar; its button's name is this with "Cancel" appended.
   explicit WorkBar(const QString& name, QWidget* parent = nullptr);
 
   bool is_busy() const { return work_.is_busy(); }
-  /// Another scan is shown from now on. What is told of work that runs says for whom it is.
+  /// Another scan is shown from now on. Messages of running work then name its patient.
   void leave_scan();
 
  signals:
   void told(const QString& message, bool problem);
 
  protected:
-  /// What is said at the end.
+  /// The message at the end of work.
   struct Said {
     QString message;
     bool problem = false;
   };
-  /// For whom the next work is: the patient's name.
+  /// The patient's name for the next work.
   void set_patient(const QString& name) { patient_ = name; }
-  /// The work runs in the background; an error that it throws is told. `doing` stands in the bar. `done` is called at
-  /// the end, unless there was a problem.
+  /// Runs the work in the background; an error that it throws is shown. `doing`: the text in the bar. `done` is called
+  /// at the end, unless there was a problem.
   void begin(const QString& doing, std::function<Said(const Job::Control&)> work, std::function<void()> done = {});
-  /// From the work: so many of all are done. An empty text stays as it is.
+  /// Called by the work: `done` of `all` steps are complete. An empty text leaves the present one.
   void tell_progress(const Job::Control& job, int done, int all, const QString& doing = {});
 
  private:
@@ -45,7 +45,7 @@ class WorkBar : public QWidget {
   QString for_whom(const QString& text) const;
 
   QString patient_;
-  bool left_ = false;  // the scan that it is of
+  bool left_ = false;  // the work's scan is no longer shown
   QProgressBar* progress_;
   Job work_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Looks for styluses on a thread of its own: on request, and when a device is plugged in or out.
+/// Searches for styluses in a thread of its own: on request, and when a device is plugged in or out.
 
 #include <QObject>
 #include <QStringList>
@@ -20,7 +20,7 @@ class DeviceWatch : public QObject {
  public:
   explicit DeviceWatch(QObject* parent = nullptr);
 
-  /// found() follows.
+  /// Starts a search; found() follows.
   void look();
 
  signals:
@@ -36,7 +36,7 @@ class DeviceWatch : public QObject {
   void ask(bool whatever_is_plugged);
 
   QStringList plugged_;
-  int again_ = 0;  // glances until it is looked once more: a maker's service finds a device later
+  int again_ = 0;  // remaining short polls until a second search, because a maker's service finds a device later
   QTimer glances_;
   Job job_{Job::Newer::follows};
 };

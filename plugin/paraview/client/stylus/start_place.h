@@ -1,6 +1,7 @@
 #pragma once
 
-/// Where a stylus begins that can be put anywhere: outside of the patient and of anything felt, in sight, in reach.
+/// The starting place of a stylus that can be put anywhere: outside the patient and anything felt, visible, and within
+/// reach.
 
 #include <functional>
 #include <glm/vec3.hpp>
@@ -13,14 +14,14 @@ namespace palpate::plugin {
 
 struct StartPlace {
   glm::dvec3 place_mm{0};  ///< patient space
-  bool outside = false;    ///< in front of or beside the patient, with nothing felt there
-  bool seen = false;       ///< in every view
+  bool outside = false;    ///< in front of or beside the patient, where nothing is felt
+  bool seen = false;       ///< visible in every view
 };
 
-/// The best of an even grid over the scan: nearest to a finger's breadth in front of what is met first on the way from
-/// the front to the middle. What is outside hangs together with the scan's front, back, left or right, and is thinner
-/// than tissue (-300 HU; elsewhere 15 % of the way from the lowest value to the highest). Where no place in reach is
-/// outside, the best of the others is given, and `outside` is false.
+/// The best place of an even grid over the scan: nearest to a finger's breadth in front of the first surface on the way
+/// from the front to the middle. Outside means connected with the scan's front, back, left or right, and below tissue
+/// (-300 HU; without HU 15 % of the way from the lowest value to the highest). If no place within reach is outside, the
+/// best of the others is returned, and `outside` is false.
 StartPlace find_start_place(const std::shared_ptr<const io::Volume>& volume, const modes::Plan& plan,
                             double gradient_scale_mm, const std::function<bool(const glm::dvec3&)>& in_reach,
                             const std::function<bool(const glm::dvec3&)>& in_sight);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Draws in one view the stylus, the proxy, the spring between them, the primitives that act and the force: above
-/// everything else, and faint where the patient hides them. Only their matrices change.
+/// Draws in one view the stylus, the proxy, the spring between them, the acting primitives and the force. They are in
+/// front of everything else, and faint where the patient hides them. Only their matrices change.
 
 #include <vtkSmartPointer.h>
 
@@ -27,7 +27,7 @@ class StylusGlyphs {
   StylusGlyphs& operator=(const StylusGlyphs&) = delete;
   ~StylusGlyphs();
 
-  /// `faint`: 0 to 1, how much of it is hidden; `mm_per_pixel` keeps their size on the screen.
+  /// `faint`: 0 to 1, the degree to which it is hidden; `mm_per_pixel` keeps its size on the screen constant.
   /// `caption`: beside the stylus; empty: none.
   void show(const SessionStatus& look, const modes::Scene& scene, double faint, double mm_per_pixel,
             const std::string& caption = {});

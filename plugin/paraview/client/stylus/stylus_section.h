@@ -1,6 +1,6 @@
 #pragma once
 
-/// The panel's third section: which stylus, how it is, and how the scan lies in the hand.
+/// The panel's third section: the choice of stylus, its state, and the mapping of the scan to the hand.
 
 #include <QWidget>
 
@@ -28,22 +28,22 @@ class StylusSection : public QWidget {
   Q_OBJECT
 
  public:
-  /// `eye` tells what the 3D view looks at.
+  /// `eye` returns the viewpoint of the 3D view.
   StylusSection(SessionController& session, SceneModel& model, std::function<Eye()> eye, QWidget* parent = nullptr);
 
-  /// Whether the slices follow the stylus now: not while the user leafs through them.
+  /// Whether the slices follow the stylus now: not while the user browses them.
   bool slices_follow() const;
-  /// The user leafs through slices: they stay until *Go to stylus*.
+  /// The user browses slices: they stay until *Go to stylus*.
   void pause_following();
-  /// Takes the stylus that is chosen, or lets it go.
+  /// Connects the chosen stylus, or disconnects it.
   void connect_or_not();
-  /// The stylus' own limits are for developers.
+  /// Shows the stylus' own limits; they are for developers.
   void show_technical(bool shown);
 
  signals:
   /// The slices through the stylus are to be shown.
   void stylus_wanted();
-  /// Whether a stylus is held, and whether connect_or_not() can change that.
+  /// Whether a stylus is connected, and whether connect_or_not() can change that.
   void connection_shown(bool held, bool can_change);
 
  private:
@@ -55,7 +55,7 @@ class StylusSection : public QWidget {
   void show_connection();
   const device::DeviceType* chosen_type() const;
   void show_own();
-  /// What a change is told: a refused one goes back to what is felt.
+  /// The callback of a change: if it is refused, the widgets return to the felt values.
   SceneModel::Told told();
   QString tested() const;
   QString unguarded() const;

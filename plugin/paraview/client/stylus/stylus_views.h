@@ -1,6 +1,6 @@
 #pragma once
 
-/// The stylus in all views of a scan: drawn as it moves, held by the mouse.
+/// The stylus in all views of a scan: drawn as it moves, and moved by the mouse.
 
 #include <QElapsedTimer>
 #include <QPointer>
@@ -28,21 +28,21 @@ class StylusViews {
   StylusViews& operator=(const StylusViews&) = delete;
   ~StylusViews();
 
-  /// The opacity of the volume rendering, which tells what it hides.
+  /// The opacity of the volume rendering, used to find where it hides the stylus.
   void set_opacity(std::vector<OpacityNode> opacity) { opacity_ = std::move(opacity); }
-  /// Draws the views again in which something has moved, but never so often that the program would stand still. True
-  /// while a full-quality picture is unfinished: the next call goes on with it.
+  /// Redraws the views in which something has moved, at a limited rate so that the program stays responsive. True while
+  /// a full-quality picture is unfinished: the next call continues it.
   bool show(const SessionStatus& look);
-  /// Gets the left button in the 3D view from now on, with the place that is seen there; empty: it turns the view
-  /// again.
+  /// `pick` gets the left button in the 3D view, with the visible place under the pointer; empty: the button rotates
+  /// the view again.
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { pick_ = std::move(pick); }
-  /// Gets the left button in the 3D view before that, with the two ends (mm) of what is under the pointer; returns
-  /// whether it takes the button. Empty: nothing does.
+  /// Gets the left button before `pick`, with the two ends (mm) of the line under the pointer; returns whether it takes
+  /// the button. Empty: not used.
   using Rays = std::function<bool(Pick, const glm::dvec3& near, const glm::dvec3& far)>;
   void set_rays(Rays rays) { rays_ = std::move(rays); }
-  /// What the 3D view looks at.
+  /// The viewpoint of the 3D view.
   Eye eye() const;
-  /// Whether a place of the patient is seen well in every view: not at an edge, under a text or behind something.
+  /// Whether a place of the patient is clearly visible in every view: not at an edge, under a text or behind something.
   bool shows(const glm::dvec3& place);
 
  private:

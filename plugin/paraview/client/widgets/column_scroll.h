@@ -1,7 +1,7 @@
 #pragma once
 
-/// A column of widgets that scrolls up and down and is never narrower than they are. What was pressed in it stays under
-/// the pointer for as long as the pointer rests, whatever lines appear above: the column scrolls by as much.
+/// A vertically scrolling column that is never narrower than its widgets. While the pointer rests after a press, the
+/// pressed widget stays under it even if lines appear above: the column scrolls by as much.
 
 #include <QPoint>
 #include <QPointer>
@@ -21,8 +21,8 @@ class ColumnScroll : public QScrollArea {
   void keep_pressed_in_place();
 
   QPointer<QWidget> pressed_;
-  QPoint pointer_;  // on the screen, when it was pressed
-  int height_ = 0;  // of the pressed widget in the viewport, pixels from above
+  QPoint pointer_;  // on the screen, at the press
+  int height_ = 0;  // of the pressed widget's top in the viewport, pixels
 };
 
 }  // namespace palpate::plugin

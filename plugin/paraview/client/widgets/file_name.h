@@ -1,6 +1,6 @@
 #pragma once
 
-/// Asks for a file that is to be written, and tells if it could not be.
+/// Asks for the name of a file to write, and reports if it could not be written.
 
 #include <QCoreApplication>
 #include <QFileDialog>
@@ -11,8 +11,8 @@
 
 namespace palpate::plugin {
 
-/// `title` of the dialog; `filter` as in "Pictures (*.png)"; `suffix`: that the file gets where it has none;
-/// `proposed`: a name or nothing. Empty if the user changes their mind.
+/// `title` of the dialog; `filter` as in "Pictures (*.png)"; `suffix`: added if the name has none; `proposed`: a name
+/// or empty. Returns an empty name if the user cancels.
 inline QString ask_file_to_write(QWidget* parent, const QString& title, const QString& filter, const QString& suffix,
                                  const QString& proposed = {}) {
   QFileDialog dialog(parent, title, {}, filter);
@@ -22,8 +22,8 @@ inline QString ask_file_to_write(QWidget* parent, const QString& title, const QS
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
   QString file = dialog.selectedFiles().first();
   if (!QFileInfo(file).suffix().isEmpty()) return file;
-  // Qt 5 adds the suffix only where no dot is in the whole path, as there is in the folder "study 1.2", and has not
-  // asked of this file.
+  // Qt 5 adds the suffix only if there is no dot in the whole path, as in the folder "study 1.2", and did not ask about
+  // overwriting this file.
   const QString whole = file + QLatin1Char('.') + suffix;
   const bool taken =
       QFileInfo::exists(whole) &&
@@ -33,7 +33,7 @@ inline QString ask_file_to_write(QWidget* parent, const QString& title, const QS
   return taken ? QString() : whole;
 }
 
-/// In front of what asked for the file.
+/// As a dialog in front of `parent`.
 inline void tell_not_written(QWidget* parent, const QString& title, const QString& why) {
   QMessageBox box(QMessageBox::Warning, title, why, QMessageBox::Ok, parent);
   box.setObjectName(QStringLiteral("palpateNotWritten"));

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A section of the panel: a header that folds what is under it away.
+/// A section of the panel with a header that hides or shows its content.
 
 #include <QWidget>
 
@@ -14,7 +14,7 @@ class Fold : public QWidget {
   Fold(const QString& title, const QString& name, QWidget* content, bool open, QWidget* parent = nullptr);
 
   void set_open(bool open);
-  /// What is said beside the title. Its end is cut where there is no room; the tool tip has all of it.
+  /// The text beside the title. It is cut if there is not enough room; the tool tip has all of it.
   void set_note(const QString& note);
 
  protected:

@@ -7,7 +7,7 @@
 
 namespace palpate::plugin {
 
-/// Makes a button as wide as the widest of the texts that it has in turn, so that nothing moves where it changes.
+/// Makes a button as wide as the widest of its alternative texts, so that nothing moves when the text changes.
 inline void keep_width(QAbstractButton& button, const QStringList& texts) {
   const QString text = button.text();
   int width = 0;

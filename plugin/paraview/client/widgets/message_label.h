@@ -5,7 +5,7 @@
 
 namespace palpate::plugin {
 
-/// A label for what a section has to say, in as many lines as that takes.
+/// A label for a section's messages, with as many lines as needed.
 inline QLabel* make_message_label(QWidget& parent, const char* name) {
   auto* const label = new QLabel(&parent);
   label->setObjectName(QString::fromLatin1(name));
@@ -14,13 +14,13 @@ inline QLabel* make_message_label(QWidget& parent, const char* name) {
   return label;
 }
 
-/// A problem is said in bold red.
+/// A problem is shown in bold red.
 inline void set_message(QLabel& label, const QString& text, bool problem) {
   label.setText(text);
   label.setStyleSheet(problem ? QStringLiteral("color: #b00020; font-weight: bold") : QString());
 }
 
-/// The same; without a text the label takes no room.
+/// The same; hides the label if the text is empty.
 inline void show_message(QLabel& label, const QString& text, bool problem) {
   set_message(label, text, problem);
   label.setVisible(!text.isEmpty());

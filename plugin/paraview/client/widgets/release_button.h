@@ -4,7 +4,7 @@
 
 namespace palpate::plugin {
 
-/// The red button that takes the force away. It looks the same wherever it stands.
+/// The red button that releases the force. It looks the same everywhere.
 inline QPushButton* make_release_button(QWidget& parent, const char* name, const QString& text) {
   auto* const button = new QPushButton(text, &parent);
   button->setObjectName(QString::fromLatin1(name));

@@ -18,9 +18,9 @@ struct SaveButtons {
   std::array<QPushButton*, 2> both{};  ///< picture, table
 };
 
-/// `name`: of the buttons (palpate<name>Picture, palpate<name>Table) and, in small letters, of the file that is
-/// proposed. `writer`: what writes what is shown now, whatever is shown when the file has been named; it may throw.
-/// `tell` gets what went wrong.
+/// `name`: part of the buttons' names (palpate<name>Picture, palpate<name>Table) and, in small letters, of the proposed
+/// file. `writer` returns a function that writes what is shown at the press, even if the chart changes while the user
+/// names the file; it may throw. `tell` gets error messages.
 inline SaveButtons add_save_buttons(
     QBoxLayout& column, QWidget& parent, const QString& name,
     const std::function<std::function<void(const std::string& file)>(bool table)>& writer,

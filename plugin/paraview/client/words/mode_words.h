@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a mode of the scene is called and which color it has, for people.
+/// The displayed name and color of a mode.
 
 #include <QColor>
 #include <QString>
@@ -14,7 +14,7 @@ inline QString name_of(const modes::Scene& scene, std::size_t mode) {
   return QString::fromStdString(display_name(scene, mode));
 }
 
-/// Gray where it has none.
+/// Gray if it has none.
 inline QColor color_of(const modes::Mode& mode) {
   return mode.color.empty() ? QColor(128, 128, 128) : QColor(QString::fromStdString(mode.color));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Names and dates of DICOM headers as people write them. For the screen alone: nothing of it is stored.
+/// Names and dates of DICOM headers as people write them. Only for the screen: they are not stored.
 
 #include <QString>
 
@@ -11,10 +11,10 @@ namespace palpate::plugin {
 /// "Muster, Erika" of "Muster^Erika" (DICOM's value representation PN; the first of its groups).
 QString patient_in_words(const std::string& name);
 
-/// "2026-01-04" of "20260104"; what is no date stays as it is.
+/// "2026-01-04" of "20260104"; any other text is unchanged.
 QString date_in_words(const std::string& date);
 
-/// "10:15" of "101500.000"; empty where it is no time.
+/// "10:15" of "101500.000"; empty for any other text.
 QString time_in_words(const std::string& time);
 
 }  // namespace palpate::plugin

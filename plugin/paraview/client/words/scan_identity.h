@@ -1,7 +1,7 @@
 #pragma once
 
-/// Who was scanned, which series and when: shown on the screen so that the right scan can be verified, and written
-/// nowhere.
+/// The patient, series and date of a scan: shown on the screen so that the user can verify the scan, and never written
+/// to a file.
 
 #include <QString>
 
@@ -9,8 +9,8 @@
 
 namespace palpate::plugin {
 
-/// In lines: patient's name; identifier; number and description of the series; the study's date. What the files do not
-/// say is left out, what is longer than 24 letters ends in an ellipsis.
+/// In lines: patient's name; identifier; number and description of the series; the study's date. Missing items are left
+/// out, and those longer than 24 letters end in an ellipsis.
 QString identity_text(const io::Series& series);
 
 }  // namespace palpate::plugin

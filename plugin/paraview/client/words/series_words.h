@@ -1,6 +1,6 @@
 #pragma once
 
-/// What tells a series from the others of its folder, for a list and for cards.
+/// The details that distinguish a series in its folder, for a list and for cards.
 
 #include <QString>
 
@@ -11,11 +11,11 @@ namespace palpate::plugin {
 /// "4  Thorax 1.0 B30f": number and description, as the scanner's own list has it.
 QString series_title(const io::Series& series);
 
-/// "2026-01-04 10:15 · CHEST · axial · kernel B30f · 1 mm thick, every 0.7 mm · 320 slices". What the files do not say
-/// is left out.
+/// "2026-01-04 10:15 · CHEST · axial · kernel B30f · 1 mm thick, every 0.7 mm · 320 slices". Missing items are left
+/// out.
 QString series_details(const io::Series& series);
 
-/// Why it cannot be felt; empty where it can.
+/// Why it cannot be felt; empty if it can.
 QString why_not_usable(const io::Series& series);
 
 }  // namespace palpate::plugin

@@ -18,8 +18,7 @@ class PALPATESERVER_EXPORT PalpateScene : public vtkTableAlgorithm {
   void SetScene(const char* scene);
   /// The marks of all scans, as kept_text() in plugin/report/kept_marks.h writes them. They do not change the output.
   void SetMarks(const char* marks) { marks_ = marks ? marks : ""; }
-  /// How the volume is shown where that is more than its colors say: "felt" for the boundaries that are felt. It does
-  /// not change the output.
+  /// How the volume is shown, in addition to its colors: "felt" for the felt boundaries. It does not change the output.
   void SetVolumeLook(const char* look) { volume_look_ = look ? look : ""; }
 
   PalpateScene(const PalpateScene&) = delete;

@@ -2,9 +2,9 @@
 
 namespace palpate::plugin {
 
-/// ParaView's representation of an image as a slice copies a sagittal one value by value, twice, and each copy goes
-/// through its whole machinery: more than all else that it does for a picture. From the first call on those that are
-/// made, whatever image they show, take the slice at once, and once. Not where a server draws or sends them.
+/// Replaces the copying of slices in ParaView's image representations. For a sagittal slice ParaView copies value by
+/// value, twice, each time through its whole pipeline, which takes longer than the rest of a picture. After the first
+/// call, new representations of any image copy the slice directly, and once. Not if a server draws or sends the slices.
 void quicken_slices();
 
 }  // namespace palpate::plugin

@@ -2,7 +2,7 @@
 
 #include <QObject>
 
-/// Runs the scenario named by PALPATE_PANEL_TEST and ends the program: 0 where it passed.
+/// Runs the scenario named by PALPATE_PANEL_TEST and ends the program: 0 if it passed.
 class PanelTest : public QObject {
   Q_OBJECT
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How long the program's main thread is busy at a stretch, with and without ParaView's own rendering.
+/// Measures how long the main thread is busy at a stretch, with and without ParaView's own rendering.
 
 #include <vtkCallbackCommand.h>
 #include <vtkNew.h>
@@ -19,18 +19,18 @@ class BusyWatch : public QObject {
   BusyWatch();
   ~BusyWatch() override;
 
-  /// ms, most first, of the stretches since it was made: rendering taken out.
+  /// ms, longest first, of all stretches so far, without rendering.
   std::vector<double> without_rendering() const;
   double longest_with_rendering_ms() const;
-  /// In the order in which they came, rendering included.
+  /// In chronological order, rendering included.
   struct Stretch {
     double began_ms = 0;  ///< since the watch was made
     double took_ms = 0;
-    double processor_ms = 0;  ///< of the main thread; less than it took where others had the processor, or it waited
-    double rendering_ms = 0;  ///< of that
+    double processor_ms = 0;  ///< of the main thread; less than elapsed if it waited or other programs ran
+    double rendering_ms = 0;  ///< the rendering's part of that
   };
   const std::vector<Stretch>& stretches() const { return stretches_; }
-  /// From each event to the next, of a processor, ms, most first: as long as nothing else could have had its turn.
+  /// Processor time between consecutive events, ms, longest first: the time for which nothing else could run.
   std::vector<double> events_ms() const;
   bool eventFilter(QObject* to, QEvent* event) override;
 

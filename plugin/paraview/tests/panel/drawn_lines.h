@@ -1,6 +1,6 @@
 #pragma once
 
-/// The lines and surfaces that are drawn in a clinical view.
+/// The lines and surfaces drawn in a clinical view.
 
 #include <QColor>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 struct DrawnLines {
-  double pixels = 0;               ///< how wide
+  double pixels = 0;               ///< line width
   std::vector<glm::dvec3> points;  ///< patient space, mm
-  double width_mm() const;         ///< from the patient's right to the left
+  double width_mm() const;         ///< extent from the patient's right to the left
 };
 
 /// Each actor of lines of that color.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Steps of the scenarios with marks: how marks are made, and what is found of them.
+/// Steps of the scenarios with marks: making and finding them.
 
 #include <QString>
 #include <QTreeWidget>
@@ -21,12 +21,12 @@ palpate::plugin::Marks kept_marks();
 /// A file beside the pictures of the run.
 QString beside_pictures(const char* name);
 
-/// Goes into the surface from the front, by keys: the hand stays where it was put.
+/// Goes into the surface from the front, by keys; the hand stays at its last position.
 void touch_surface();
-/// Presses a key in the coronal view so often.
+/// Presses a key in the coronal view this many times.
 void step(const char* key, int times);
 void mark_by_key();
-/// Lifts, goes across and touches again.
+/// Lifts the stylus, moves it sideways and touches again.
 void go_to(const char* key, int times);
 /// Three marks on the surface: two by the key, one by the button.
 void mark_three();

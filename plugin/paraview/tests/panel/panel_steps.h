@@ -1,6 +1,6 @@
 #pragma once
 
-/// What most scenarios begin with.
+/// Common first steps of the scenarios.
 
 #include <QString>
 #include <QWidget>
@@ -22,7 +22,7 @@ class SessionController;
 /// A scenario by its name.
 using Scenarios = std::map<std::string, void (*)()>;
 
-/// Of the files of that name.
+/// The scenarios of the files with that name.
 const Scenarios& archive_scenarios();
 const Scenarios& choosing_scenarios();
 const Scenarios& contour_scenarios();
@@ -53,55 +53,54 @@ const Scenarios& tuning_scenarios();
 const Scenarios& unsaved_scenarios();
 const Scenarios& volume_scenarios();
 
-/// What casts the volume's rays where there is no graphics card; throws where nothing of ours does.
+/// The ray caster of the volume, used without a graphics card; throws if it is not ours.
 palpate::plugin::Caster& caster_of_the_volume();
-/// The scan's reader in the pipeline; throws where there is none.
+/// The scan's reader in the pipeline; throws if there is none.
 pqPipelineSource& reader();
-/// Its number, which is another for each reader; 0 if there is none.
+/// The reader's number, unique for each reader; 0 if there is none.
 unsigned reader_in_pipeline();
-/// Chooses a row of the list of series, and waits until that scan is shown.
+/// Chooses a row of the list of series, and waits until its scan is shown.
 void choose_series(int row);
-/// The same where something is not saved, with the button that is pressed then: "Save", "Discard" or "Cancel". Does not
-/// wait.
+/// The same with unsaved work, answering the question with this button: "Save", "Discard" or "Cancel". Does not wait.
 void choose_series_and(int row, const char* answer);
-/// The question what becomes of what is not saved: presses that button in it. Returns what it asked.
+/// Answers the question about unsaved work with that button. Returns the text of the question.
 QString answer(QDialog& question, const char* button);
-/// Reads a state file as File > Load State does with it, and waits until another scan than now is shown.
+/// Reads a state file as File > Load State does, and waits until another scan is shown.
 void load_state(const QString& file);
 int views_open();
-/// One reader, one scene, one tab, and four views that show the scan.
+/// Expects one reader, one scene, one tab, and four views that show the scan.
 void expect_four_views_of_one_scan();
 /// The JSON text of the scene in the pipeline; empty if there is none.
 std::string scene_text();
-/// The same once it stays: no edit is on its way.
+/// The same once it is steady: no edit is pending.
 std::string steady_scene();
-/// The marks' text in the pipeline, which holds those of all scans.
+/// The text of the marks in the pipeline, with those of all scans.
 std::string marks_text();
-/// Waits for the scan and its tissues, and until the views rest.
+/// Waits until the scan and its tissues are shown, and the views rest.
 void scan_is_shown();
-/// The same where a scan is shown already: for one whose reader is another than `before`.
+/// The same if a scan is already shown: waits for one whose reader is not `before`.
 void another_scan_is_shown(unsigned before);
 /// The panel's own session.
 palpate::plugin::SessionController& panel_session();
 /// Connects, and turns the forces on.
 void connect_stylus();
-/// Feel, after a fault is cleared where there is one.
+/// Turns the forces on, after clearing a fault if there is one.
 void turn_forces_on();
 bool forces_are_on();
-/// Until the stylus has kept its place for a tenth of a second of its own time, in which it ticks.
+/// Waits until the stylus has kept its place for a tenth of a second of session time.
 void stylus_rests();
-/// One step of the hand, by a key in a view: returns once the hand wants to be elsewhere.
+/// One step of the hand, by a key in a view: returns when the hand's target has changed.
 void step_hand(QWidget& in, const char* key);
-/// The program hangs as long as it takes the servo to see it: no event is handled meanwhile.
+/// Blocks the program, without handling events, until the servo notices it.
 void hang();
-/// The servo's clock in a scenario: its ticks are never late, and time stands still while the program is too busy to
-/// be seen alive, unless it hangs or is `left_alone`.
+/// The servo's clock in a scenario. Its ticks are never late, and time stops while the program is too busy to show that
+/// it is alive, except in hang() and if it is `left_alone`.
 std::unique_ptr<palpate::plugin::ServoClock> panel_clock(double period_s, bool left_alone);
-/// Presses from the front, slowly, until something is felt; the button stays down.
+/// Presses slowly from the front until something is felt; the button stays down.
 void press();
-/// The same, and lets go, by the view's own events instead of the display's pointer, which takes long.
+/// The same, then releases; by the view's own events instead of the slower display's pointer.
 void press_once();
-/// Waits for the scan, connects, and presses.
+/// Waits for the scan, connects the stylus, and presses.
 void feel();
 /// Drops a folder on the panel.
 void drop_folder(const QString& folder);
