@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the commands that speak to an archive have in common.
+/// Shared by the commands that use an archive.
 
 #include <string>
 #include <string_view>
@@ -11,10 +11,10 @@ class App;
 
 namespace palpate::plugin {
 
-/// Adds --archive. `name` has to live as long as the command.
+/// Adds --archive. `name` must outlive the command.
 void add_archive_option(CLI::App& command, std::string& name);
 
-/// A line on stderr that is written over, where that is a terminal; an empty text takes it away.
+/// Overwrites a line on stderr, if that is a terminal; an empty text removes it.
 void show_progress(std::string_view text);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A session that the options of `palpate probe`, `record` and `serve` ask for, ready to run.
+/// A session for `palpate probe`, `record` and `serve`, ready to run.
 
 #include <memory>
 
@@ -11,14 +11,14 @@
 
 namespace palpate::plugin {
 
-/// At the clock's pace, on its scan; a simulated hand knows its way.
+/// Runs at the clock's pace, on its scan; a simulated hand has its path.
 struct ReadySession {
   std::shared_ptr<const io::Volume> volume;
   SessionRun run;
-  bool simulated = false;  ///< the stylus is only arithmetic
+  bool simulated = false;  ///< the stylus exists only in software
 };
 
-/// Loads the scan and plans the scene. Throws what open_scan(), scene_for() and follow_probe_path() throw.
+/// Loads the scan and plans the scene. Throws as open_scan(), scene_for() and follow_probe_path() do.
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The options that `palpate probe`, `record` and `serve` share: a scan, a scene, a stylus, how long.
+/// The options shared by `palpate probe`, `record` and `serve`: scan, scene, stylus, duration.
 
 #include <string>
 

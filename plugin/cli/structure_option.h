@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a command is told a structure: FILE, or FILE:SEGMENT with its number or name as `palpate structures` lists them.
+/// The option that names a structure: FILE, or FILE:SEGMENT with its number or name as in `palpate structures`.
 
 #include <string>
 
@@ -9,12 +9,12 @@
 
 namespace palpate::plugin {
 
-/// A file whose name has a colon is found by its whole name first. Throws WrongUsage with the list of structures if the
-/// text names none of several; InputRefused if the file holds none, or none of that name.
+/// If the whole text is the name of a file, its colon does not count. Throws WrongUsage with the list of structures if
+/// there are several and the text names none of them; InputRefused if the file holds no structure, or none with that
+/// name.
 io::Structure choose_structure(const std::string& text);
 
-/// The same, put on a scan. Says on stderr what a user should know of it. Throws InputRefused if it cannot be felt on
-/// that scan, too.
+/// The same, placed on a scan. Prints warnings on stderr. Also throws InputRefused if it cannot be felt on that scan.
 io::Structure choose_structure(const std::string& text, const io::Volume& scan);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What plugin says to a user.
+/// The messages of plugin to the user.
 
 #include "plugin/messages/messages_of_balances.h"
 #include "plugin/messages/messages_of_choices.h"
@@ -12,7 +12,7 @@
 
 namespace palpate::plugin {
 
-/// The message of this id, with these values in its places.
+/// The message with this id, with these values in its places.
 template <typename... Values>
 Text say(std::type_identity_t<
              ChosenMessage<sizeof...(Values), messages::kept_archives, messages::balances, messages::paraview,

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What `palpate solve` says.
+/// Messages of `palpate solve`.
 
 #include "solver/text/message.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of the choice of a series.
+/// Messages about the choice of a series.
 
 #include "solver/text/message.h"
 

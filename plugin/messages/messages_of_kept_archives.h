@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of the archives that are entered and of what was fetched.
+/// Messages about the configured archives and fetched data.
 
 #include "solver/text/message.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What `palpate serve` says, to its user and to its clients.
+/// Messages of `palpate serve` to its user and its clients.
 
 #include "solver/text/message.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said in ParaView and in the panel.
+/// Messages in ParaView and in the panel.
 
 #include "solver/text/message.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said where structures are asked for.
+/// Messages about the structures of a scene.
 
 #include "solver/text/message.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is said of strokes, sessions and recordings.
+/// Messages about strokes, sessions and recordings.
 
 #include "solver/text/message.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// plugin/docs/messages.md, made of the tables.
+/// Generates plugin/docs/messages.md from the tables.
 
 #include <span>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin {
 
-/// The tables of all folders, by the sections of the page.
+/// The tables of all folders, as sections of the page.
 struct MessageSection {
   std::string_view title;
   std::string_view introduction;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Inputs that the programs refuse, and what they say of them.
+/// Inputs that the programs refuse, with the resulting messages.
 
 #include <string>
 #include <vector>

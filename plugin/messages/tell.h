@@ -7,7 +7,7 @@
 
 namespace palpate::plugin {
 
-/// Says it on stderr, in a line of its own, with control characters shown.
+/// Prints the text on stderr, on a line of its own, with control characters made visible.
 inline void tell(const Text& text) {
   std::fprintf(stderr, "%s\n", printable(text).c_str());
 }

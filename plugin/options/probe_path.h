@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where a simulated hand goes: --path, or a press on the first boundary between --from and --to.
+/// The path of a simulated hand: --path, or a press on the first boundary between --from and --to.
 
 #include <filesystem>
 #include <string>
@@ -23,12 +23,12 @@ struct ProbePathOption {
   std::string from, to;  ///< "x,y,z" in mm; empty: from the front towards the middle, at 3/4 of the scan's height
 };
 
-/// `option` has to live as long as the command.
+/// `option` must outlive the command.
 void add_probe_path_option(CLI::App& command, ProbePathOption& option);
 
-/// Makes the hand follow the path, and returns its end, s. If the scene names no center of the workspace, it gets the
-/// path's middle, in the scene and in the plan. Throws InputRefused if the path leaves the workspace, and what reading
-/// the path or feeling the way throws.
+/// Makes the hand follow the path, and returns the path's end, s. If the scene names no center of the workspace, the
+/// middle of the path becomes the center, in the scene and in the plan. Throws InputRefused if the path leaves the
+/// workspace, and errors of reading the path or of the search for the boundary.
 double follow_probe_path(const ProbePathOption& option, const io::Volume& volume, modes::Scene& scene,
                          PreparedScene& felt, device::SimulatedStylus& stylus);
 

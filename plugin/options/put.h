@@ -1,6 +1,7 @@
 #pragma once
 
-/// Output of a program on stdout: control characters in it are shown, not obeyed (solver/text/printable.h).
+/// Output on stdout, with control characters made visible, so that a terminal does not obey them
+/// (solver/text/printable.h).
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ void put(fmt::format_string<Values...> text, Values&&... values) {
   std::fputs(printable(fmt::format(text, std::forward<Values>(values)...)).c_str(), stdout);
 }
 
-/// JSON as text, with the end of a line behind it.
+/// JSON as text, followed by a line end.
 inline void put_json_text(std::string_view json, const char* end = "\n") {
   std::fputs(printable_json(json).append(end).c_str(), stdout);
 }

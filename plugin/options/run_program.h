@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the programs share: parsing their arguments, and an exit code for what goes wrong.
+/// Shared by the programs: parsing of arguments, and exit codes for errors.
 
 namespace CLI {
 class App;
@@ -8,8 +8,8 @@ class App;
 
 namespace palpate::plugin {
 
-/// Runs the subcommand that was asked for. Returns 0 done, 1 something in the input was refused, 2 wrong usage,
-/// 3 internal fault, after saying it on stderr. Never throws.
+/// Runs the requested subcommand. Returns 0 success, 1 refused input, 2 wrong usage, 3 internal fault; errors are
+/// printed on stderr. Never throws.
 int run_program(CLI::App& program, int argc, char** argv);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a command is told which stylus to hold: --device KIND[@ADDRESS] and what that kind needs.
+/// The options that name a stylus: --device KIND[@ADDRESS], and the settings of that kind.
 
 #include "plugin/app/stylus_choice.h"
 
@@ -10,9 +10,9 @@ class App;
 
 namespace palpate::plugin {
 
-/// --device alone. `choice` has to live as long as the command, here and below.
+/// Only --device. `choice` must outlive the command, here and below.
 void add_device_option(CLI::App& command, StylusChoice& choice);
-/// All of them.
+/// All these options.
 void add_stylus_option(CLI::App& command, StylusChoice& choice);
 
 }  // namespace palpate::plugin

@@ -2,7 +2,7 @@
 
 namespace palpate::plugin {
 
-/// What --version says: Palpate's version, the commit it was built from where that is known, and its libraries'.
+/// The text of --version: Palpate's version, its commit if known, and the versions of its libraries.
 const char* version_text() noexcept;
 
 }  // namespace palpate::plugin

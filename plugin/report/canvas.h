@@ -24,7 +24,7 @@ struct Color {
 /// Of "#rrggbb"; `otherwise` for any other text.
 Color color_from(const std::string& hexadecimal, const Color& otherwise);
 
-/// Okabe and Ito's palette, told apart by color-blind eyes.
+/// Okabe and Ito's palette, which color-blind people can distinguish.
 namespace colors {
 constexpr Color black{0, 0, 0}, white{1, 1, 1}, gray{0.45, 0.45, 0.45}, light{0.88, 0.88, 0.88};
 constexpr Color orange{0.90, 0.62, 0}, sky{0.34, 0.71, 0.91}, green{0, 0.62, 0.45}, yellow{0.94, 0.89, 0.26};
@@ -44,12 +44,11 @@ class Canvas {
   void arrow(const Point& from, const Point& to, const Color& color, double width = 1.5);
   void disc(const Point& center, double radius, const Color& color);
   void rectangle(const Point& corner, const Point& size, const Color& color, bool filled = true);
-  /// Text with its baseline's anchor at `at`; `turned` writes it upwards.
+  /// Draws text with its anchor, on the baseline, at `at`; `turned`: upwards.
   void text(const Point& at, const std::string& words, double size = 13, const Color& color = colors::black,
             Anchor anchor = Anchor::left, bool turned = false);
   double text_width(const std::string& words, double size = 13);
-  /// Gray values 0..255, row by row, stretched over the rectangle without smoothing between neighbors further than a
-  /// pixel.
+  /// Gray values 0..255, row by row, stretched over the rectangle. Neighbors are smoothed over at most a pixel.
   void gray_image(std::span<const unsigned char> pixels, int columns, int rows, const Point& corner, const Point& size);
   /// The same in color: red, green, blue.
   void image(std::span<const std::array<unsigned char, 3>> pixels, int columns, int rows, const Point& corner,

@@ -17,12 +17,12 @@ struct Axis {
   bool logarithmic = false;
   std::optional<double> minimum = std::nullopt;  ///< chosen from the data where not given
   std::optional<double> maximum = std::nullopt;
-  bool numbered = true;  ///< false: of a panel whose bands are the things compared
+  bool numbered = true;  ///< false: without numbers, for a panel that compares bands
 };
 
 struct Curve {
   enum class Style { line, points, bars };
-  std::string label;  ///< in the legend; empty: not there
+  std::string label;  ///< in the legend; empty: not in it
   std::vector<double> x, y;
   Color color = colors::blue;
   Style style = Style::line;
@@ -38,7 +38,7 @@ struct Mark {
   bool vertical = true;
 };
 
-/// A stretch of the x axis behind the curves, with a word at its foot where there is room.
+/// An interval of the x axis behind the curves, with a word at the bottom if there is room.
 struct Band {
   double from = 0, to = 0;
   std::string label;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Compares what two recordings felt on one stroke: the same way through the scan, at any time and any speed.
+/// Compares the forces of two recordings of one stroke: the same path through the scan, at any time and speed.
 
 #include <filesystem>
 #include <string>
@@ -11,24 +11,24 @@
 
 namespace palpate::plugin {
 
-/// One row for each step of the first recording's way.
+/// One entry for each step along the first recording's path.
 struct Comparison {
-  std::vector<double> along_mm;           ///< way of the first recording's probe
-  std::vector<double> first_n, second_n;  ///< force that the stylus was fed, there
-  std::vector<double> apart_mm;           ///< farthest that the second one's probe is from the first one's, there
-  double most_apart_mm = 0;               ///< of all
+  std::vector<double> along_mm;           ///< along the path of the first recording's probe
+  std::vector<double> first_n, second_n;  ///< force on the stylus at that step
+  std::vector<double> apart_mm;           ///< largest distance from the second probe to the first one at that step
+  double most_apart_mm = 0;               ///< largest of these
   double largest_difference_n = 0;        ///< of the forces
-  double largest_difference_at_mm = 0;    ///< where
-  double mean_difference_n = 0;           ///< mean of its size over the way
+  double largest_difference_at_mm = 0;    ///< its place
+  double mean_difference_n = 0;           ///< mean of its magnitude along the path
 };
 
-/// Both ways are cut into steps of half a millimeter of the hand. That is more than its tremor, so neither speed nor
-/// rest counts. The steps are matched in their order, so that the sum of the squared distances between matched steps is
-/// least (dynamic time warping: Sakoe and Chiba, IEEE Trans. ASSP 26, 1978). The force of a step is the mean over its
-/// ticks. If several steps of the second recording match one of the first, their mean is taken.
+/// Both paths are cut into steps of half a millimeter of the hand. That is more than its tremor, so neither speed nor
+/// pauses count. The steps are matched in order, with the least sum of squared distances between matched steps (dynamic
+/// time warping: Sakoe and Chiba, IEEE Trans. ASSP 26, 1978). The force of a step is the mean over its ticks. If
+/// several steps of the second recording match one of the first, their mean is taken.
 Comparison compare_strokes(const RecordedSession& first, const RecordedSession& second);
 
-/// Both forces, their difference and how far the ways are apart, over the first one's way.
+/// Both forces, their difference, and the distance between the paths, along the first path.
 std::vector<Chart> charts_of(const Comparison& comparison, const std::string& first, const std::string& second);
 
 /// A line a step. Throws std::runtime_error naming the file.

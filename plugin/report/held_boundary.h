@@ -1,6 +1,6 @@
 #pragma once
 
-/// The boundary that holds the proxy right now: which it is, what it takes there, and how well its place is known.
+/// The boundary that holds the proxy now: its name, its strength there, and the uncertainty of its position.
 
 #include <functional>
 #include <optional>
@@ -13,31 +13,31 @@
 
 namespace palpate::plugin {
 
-/// The surface of the plan that pushes most in a tick, by its index among the scene's modes. None if no surface pushes
+/// The surface of the plan that pushes most in a tick, as an index into the scene's modes. None if no surface pushes
 /// with more than 0.05 N.
 std::optional<std::size_t> holding_surface(std::span<const PrimitiveRecord> shares, const modes::Plan& plan);
 
-/// How precisely the place of a mode's boundary is known there, mm. None for a structure's edge, which a person has
+/// The uncertainty of the position of a mode's boundary there, mm. None for a structure's edge, which a person has
 /// outlined, and where known_to_mm() in summary.h gives none.
 std::optional<double> known_to_mm(const PreparedScene& felt, const modes::Scene& scene, std::size_t mode,
                                   const glm::dvec3& place_mm);
 
-/// The same for the ticks of a recording that feel this scene, for the boundary that holds the proxy. NaN if no
-/// boundary does, if nothing can be said, or while the scene changes. Takes some 150 samples, unless the proxy has
-/// moved by less than 0.02 mm since the last ones: not for the tick. For one thread.
+/// The same for each tick of a recording that uses this scene, for the boundary that holds the proxy. NaN if no
+/// boundary does, if it is unknown, or while the scene changes. Takes some 150 samples, unless the proxy has moved by
+/// less than 0.02 mm since the latest ones: not for the tick. For one thread.
 std::function<double(const TickRecord&, std::span<const PrimitiveRecord>)> known_to_of_ticks(const PreparedScene& felt,
                                                                                              const modes::Scene& scene);
 
 struct HeldBoundary {
   std::size_t mode = 0;               ///< index into the scene's modes
-  std::string name;                   ///< of the mode; at the site where it is met, where that is known: "Skin"
-  double strength_n = 0;              ///< the most that it takes on the way in: strength_ahead_n()
-  double full_strength_n = 0;         ///< the most that its transfer function gives
-  std::optional<double> known_to_mm;  ///< as known_to_mm() has it
+  std::string name;                   ///< of the mode; or of the site where it is met, if known: "Skin"
+  double strength_n = 0;              ///< the largest force on the way in: strength_ahead_n()
+  double full_strength_n = 0;         ///< the largest force of its transfer function
+  std::optional<double> known_to_mm;  ///< as in known_to_mm()
 };
 
-/// None if nothing holds the proxy. Takes some 150 samples: for a picture, not for a tick. `sites`: of the scan; may be
-/// null, or of another scan, and then does not count.
+/// None if nothing holds the proxy. Takes some 150 samples: for a picture, not for a tick. `sites`: of the scan;
+/// ignored if null or of another scan.
 std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> shares, const PreparedScene& felt,
                                           const modes::Scene& scene, const glm::dvec3& proxy_mm,
                                           const glm::dvec3& probe_mm, const modes::SiteMap* sites = nullptr);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is felt right now, as one line of a terminal that is written over and over.
+/// The present state of a session, as one line of a terminal that is overwritten.
 
 #include <cstdint>
 #include <string>
@@ -20,8 +20,8 @@ class LiveView {
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
-  /// Writes the newest tick's line to stderr; ten times a second is enough. The times and the missed deadlines are
-  /// taken over all ticks since the last call that are still in the ring.
+  /// Writes the line of the newest tick to stderr; ten times a second is enough. Times and missed deadlines are those
+  /// of all ticks since the previous call that are still in the ring.
   void show();
 
  private:
@@ -32,10 +32,10 @@ class LiveView {
   std::uint64_t missed_ = 0;
 };
 
-/// "fat", "bone": of the scene's tissues, else CT's by HU, else the value itself.
+/// "fat", "bone": a tissue of the scene, else of CT by HU, else the value itself.
 std::string tissue_name(const modes::Scene& scene, const std::string& unit, double value);
 
-/// The line for a tick: force, depth, tissue, solver, error bound, tick, missed ticks, and what is wrong.
+/// The line for a tick: force, depth, tissue, solver, error bound, tick, missed ticks, and problems.
 std::string live_line(const TickRecord& tick, const std::string& tissue, double longest_tick_us, std::uint64_t missed);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Pictures of where marks are, to be stored beside the scan.
+/// Pictures of the places of marks, to be stored beside the scan.
 
 #include <memory>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin {
 
-/// One for each mark: the axial slice through it, 100 mm wide, with a cross at the mark. No name of a patient is in it.
+/// One for each mark: the axial slice through it, 100 mm wide, with a cross at the mark. They do not name the patient.
 std::vector<io::Picture> pictures_of(const Marks& marks, const std::shared_ptr<const io::Volume>& volume);
 
 }  // namespace palpate::plugin

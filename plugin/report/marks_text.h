@@ -1,6 +1,6 @@
 #pragma once
 
-/// Marks as text for other programs. Patient space (LPS, mm). No patient's name or id is in them.
+/// Marks as text for other programs. Patient space (LPS, mm). The patient is not named.
 
 #include <string>
 

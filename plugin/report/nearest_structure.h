@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which of a scene's structures matters most at a tick.
+/// The most relevant of a scene's structures at a tick.
 
 #include <optional>
 #include <span>
@@ -16,8 +16,8 @@ struct NearestStructure {
   bool within_margin = false;
 };
 
-/// The structure that the proxy is farthest inside the margin of; if the proxy is in no margin, the one whose edge is
-/// nearest. `structures`: those of the scene that the tick has distances of, in the same order. None if there are none.
+/// The structure in whose margin the proxy is deepest, or the one with the nearest edge if the proxy is in no margin.
+/// `structures`: the scene's structures with distances in the tick, in the same order. None if there are none.
 std::optional<NearestStructure> nearest_structure(const TickRecord& tick, const modes::Scene& scene,
                                                   std::span<const std::size_t> structures);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A session as pictures: where it was, what was felt, how long a tick took.
+/// Pictures of a session: its path, the forces, and the times of its ticks.
 
 #include <array>
 #include <filesystem>
@@ -16,19 +16,19 @@
 
 namespace palpate::plugin {
 
-/// What force-depth.png shows: force and value against how far the probe is along the direction of pressing, from the
-/// first contact (mm).
+/// The charts of force-depth.png: force and value against the distance of the probe from the first contact along the
+/// direction of pressing (mm).
 std::array<Chart, 2> force_depth_charts(const Recording& recording, const Summary& summary, const modes::Scene& scene,
                                         const modes::Plan& plan, const std::string& unit);
-/// What force-time.png shows: the force sent, and each mode's share of it.
+/// The chart of force-time.png: the force sent, and each mode's share of it.
 Chart force_time_chart(const Recording& recording, const modes::Scene& scene);
-/// What tick-time.png shows: twenty bins a decade from 0.1 us to 10 ms.
+/// The chart of tick-time.png: twenty bins a decade from 0.1 us to 10 ms.
 Chart tick_time_chart(const Recording& recording, const Summary& summary);
-/// The plane of slice.png: the anatomical one that the path leaves least, as radiologists hang it (axial from the feet,
+/// The plane of slice.png: the anatomical plane nearest to the path, oriented as by radiologists (axial from the feet,
 /// coronal from the front, sagittal from the left).
 SliceView slice_view(const Recording& recording, const modes::Plan& plan, const std::string& unit,
                      const io::FieldSource& source);
-/// The arrows of slice.png: where something is felt, one every millimeter of the probe's travel.
+/// The arrows of slice.png: one for every millimeter of the probe's travel with a force.
 std::vector<ForceArrow> force_arrows(const Recording& recording, const modes::Plan& plan);
 
 /// Writes slice.png, force-depth.png, force-time.png and tick-time.png into the folder; returns their names. `unit` is

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A slice of a scan with what happened on it: tracks of probe and proxy, force arrows. Patient space (LPS, mm).
+/// A slice of a scan with a session's tracks of probe and proxy, and force arrows. Patient space (LPS, mm).
 
 #include <filesystem>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace palpate::plugin {
 
-/// The plane shown, and how bright. `right` and `down` are the screen's directions in the patient: unit and
+/// The plane and its gray window. `right` and `down` are the screen's directions in the patient: unit and
 /// perpendicular.
 struct SliceView {
   glm::dvec3 center_mm{0};
@@ -36,7 +36,7 @@ struct ForceArrow {
   glm::dvec3 force_n{0};
 };
 
-/// The letters of the patient's side a direction points to: "L", "P", "H", and two ("LP") where it is oblique.
+/// The letters of a direction in the patient: "L", "P", "H", or two ("LP") if it is oblique.
 std::string orientation_letters(const glm::dvec3& direction);
 
 Canvas draw_slice(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A stroke for people: as charts, as a table, and a point of it in words.
+/// A stroke for people: charts, a table, and one point in words.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,33 +16,33 @@
 
 namespace palpate::plugin {
 
-/// A boundary that was met, and how well its place is known.
+/// A boundary met by a stroke, and the uncertainty of its position.
 struct MetBoundary {
   Contact contact;
   double depth_mm = 0;                ///< of the proxy along the stroke, when it was first held
   std::optional<double> known_to_mm;  ///< across the boundary: known_to_mm() in held_boundary.h
-  /// Along the stroke, which may cross the boundary at a slant: in 95 of 100 places the true boundary lies within
-  /// depth_mm +- this. None if that is not known, or if the stroke runs nearly along the boundary.
+  /// The uncertainty along the stroke, which may cross the boundary at a slant: at 95 of 100 places the true boundary
+  /// is within depth_mm +- this. None if unknown, or if the stroke runs nearly along the boundary.
   std::optional<double> known_along_mm;
 };
 
-/// A stroke and what it went through; the unit is the scan's.
+/// A stroke with its ticks; the unit is the scan's.
 struct Profile {
   std::vector<StrokePoint> stroke;
   std::shared_ptr<const modes::Plan> plan;
   modes::Scene scene;
   std::string unit;
-  double limit_n = 0;                 ///< that the stylus is never fed more than: drawn across the forces
+  double limit_n = 0;                 ///< the largest force on the stylus: drawn across the forces
   std::vector<MetBoundary> met = {};  ///< in the order of the stroke: met_along()
 };
 
-/// The boundaries of the scene that the profile's stroke has met, with their strengths.
+/// The scene's boundaries met by the profile's stroke, with their strengths.
 std::vector<MetBoundary> met_along(const Profile& profile, const PreparedScene& felt);
 
-/// Every n-th point, so that about `most` are left: as many as a chart on a screen can show.
+/// Every n-th point, so that about `most` remain: as many as a chart on a screen can show.
 Profile thinned(const Profile& profile, std::size_t most);
 
-/// How far the probe has come along the stroke, mm.
+/// The probe's distance along the stroke, mm.
 double depth_of(const Profile& profile, std::size_t point);
 
 /// Charts over the distance along the stroke: force, in the color of the boundary that pushes; value at the probe and
@@ -50,8 +50,8 @@ double depth_of(const Profile& profile, std::size_t point);
 /// met, with a band as wide as the uncertainty of their place.
 std::vector<Chart> charts_of(const Profile& profile);
 
-/// One line a tick: depth, places, force, values, tissue, who pushes with what, and how well that boundary is known.
-/// Throws std::runtime_error naming the file.
+/// One line a tick: depth, positions, force, values, tissue, the pushing boundary, its force, and the uncertainty of
+/// its position. Throws std::runtime_error naming the file.
 void write_csv(const Profile& profile, const std::filesystem::path& file);
 
 /// "12.3 mm: 0.84 N by skin (plane), -310 HU, soft tissue"

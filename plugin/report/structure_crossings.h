@@ -1,7 +1,6 @@
 #pragma once
 
-/// Where a stroke goes in and out of the structures that a scene reads, and where the scan's own values have an edge
-/// beside.
+/// The places where a stroke enters and leaves the structures of a scene, with the scan's own edges nearby.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -14,7 +13,7 @@
 
 namespace palpate::plugin {
 
-/// mm along the stroke, before and behind a crossing: as far as the scan's own edge is looked for.
+/// The scan's own edge is searched this far before and behind a crossing, mm along the stroke.
 inline constexpr double scan_edge_within_mm = 5;
 
 struct StructureCrossing {
@@ -22,11 +21,11 @@ struct StructureCrossing {
   bool entering = true;
   glm::dvec3 place_mm{0};                ///< on the structure's surface, patient space
   double depth_mm = 0;                   ///< of the place along the stroke
-  std::optional<io::ScanEdge> own_edge;  ///< the scan's, along the stroke; none if it shows none there
+  std::optional<io::ScanEdge> own_edge;  ///< the scan's edge along the stroke; none if there is none
 };
 
-/// In the order of the stroke, which is straight. Two crossings less than 0.1 mm apart may be missed. Where the scan
-/// ends no edge of its own is found.
+/// In the order of the stroke, which is straight. Two crossings less than 0.1 mm apart may be missed. At the end of the
+/// scan no edge of the scan is found.
 std::vector<StructureCrossing> crossings_along(const glm::dvec3& from_mm, const glm::dvec3& to_mm,
                                                const PreparedScene& felt);
 

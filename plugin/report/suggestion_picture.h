@@ -1,7 +1,6 @@
 #pragma once
 
-/// A picture of what a suggestion found: where each boundary will be felt, on two slices, and the pairs of values in
-/// which they were found.
+/// A picture of a suggestion: its boundaries on two slices, and the pairs of values in which they were found.
 
 #include <filesystem>
 #include <memory>

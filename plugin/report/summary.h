@@ -16,24 +16,24 @@
 
 namespace palpate::plugin {
 
-/// A stretch of ticks in which one surface, above all others, held the proxy.
+/// A period of ticks in which one surface mainly held the proxy.
 struct HeldStretch {
   std::size_t mode = 0;  ///< index into the scene's modes
   double begin_s = 0;
   double end_s = 0;
-  glm::dvec3 contact_mm{0};  ///< proxy when it began, patient space
+  glm::dvec3 contact_mm{0};  ///< the proxy at its start, patient space
   double value = 0;          ///< of the scan there
-  double peak_n = 0;         ///< largest force of the coupling meanwhile
-  /// In 95 of 100 places the true boundary is within this of contact_mm (io/fields/boundary_uncertainty.h), mm. None if
-  /// it was not asked for or cannot be computed.
+  double peak_n = 0;         ///< largest force of the coupling in it
+  /// At 95 of 100 places the true boundary is within this of contact_mm (io/fields/boundary_uncertainty.h), mm. None if
+  /// it was not requested or cannot be computed.
   std::optional<double> known_to_mm = std::nullopt;
 };
 
-/// How near the proxy came to a structure, or how far into it.
+/// The nearest approach of the proxy to a structure, or its greatest depth in it.
 struct Approach {
   std::size_t structure = 0;  ///< index into the scene's structures
   double distance_mm = 0;     ///< the largest of the session: positive inside
-  double time_s = 0;          ///< when that was
+  double time_s = 0;          ///< time of that
 };
 
 struct Percentiles {
@@ -43,30 +43,30 @@ struct Percentiles {
 struct Summary {
   double duration_s = 0;
   std::size_t ticks = 0;
-  std::vector<ScanFrame> scan_frames;  ///< of the series, that were felt
+  std::vector<ScanFrame> scan_frames;  ///< the felt frames of the series
   std::vector<HeldStretch> holds;
-  std::vector<Approach> approaches;             ///< one a structure that the scene reads
-  std::vector<RegisteredStructure> registered;  ///< those that a registration put on the scan
+  std::vector<Approach> approaches;             ///< one for each structure of the scene
+  std::vector<RegisteredStructure> registered;  ///< those placed on the scan by a registration
   double peak_sent_n = 0;
   std::array<std::size_t, 64> solver_ticks{};  ///< by solver::SolverType::number
   std::size_t capped = 0, refused = 0;         ///< ticks
   double largest_error_bound_m = 0;
   double largest_residual_m = 0;    ///< |residual| / k
   Percentiles tick_us;              ///< all stages together
-  std::uint64_t missed = 0;         ///< deadlines that went by without a tick
-  std::uint64_t lost = 0;           ///< ticks that are not in the recording
+  std::uint64_t missed = 0;         ///< deadlines that passed without a tick
+  std::uint64_t lost = 0;           ///< ticks missing from the recording
   std::vector<std::string> faults;  ///< of the safety filter, in words
 };
 
-/// The time of a tick in all its stages, microseconds.
+/// The total time of a tick, microseconds.
 double tick_us(const TickRecord& tick);
 
 Percentiles percentiles_of(std::vector<double> values);
 
 Summary summarize(const Recording& recording, const modes::Plan& plan);
 
-/// How precisely the place of a felt boundary is known there, mm. None if the source has no gradient, or if the value
-/// does not rise there.
+/// The uncertainty of a felt boundary's position there, mm. None if the source has no gradient, or if the value does
+/// not rise there.
 std::optional<double> known_to_mm(const io::FieldSource& source, const io::Geometry& geometry,
                                   const modes::Scene& scene, const glm::dvec3& place_mm);
 /// "; known to 0.2 mm", or nothing.
@@ -75,7 +75,7 @@ std::string known_to_text(const std::optional<double>& mm);
 void add_uncertainty(Summary& summary, const modes::Scene& scene, const io::FieldSource& source,
                      const io::Geometry& geometry);
 
-/// For a person. `scan` describes the scan without naming the patient.
+/// The summary for people. `scan` describes the scan without naming the patient.
 std::string to_text(const Summary& summary, const modes::Scene& scene, const std::string& scan,
                     const std::string& device);
 std::string to_json(const Summary& summary, const modes::Scene& scene);
@@ -83,7 +83,7 @@ std::string to_json(const Summary& summary, const modes::Scene& scene);
 /// "2.1 mm from liver", "3.0 mm inside liver": `distance_mm` is positive inside.
 std::string distance_in_words(double distance_mm, const std::string& structure);
 
-/// The name of a mode for people: its own name; without one, the structure whose edge it is, or its type.
+/// The displayed name of a mode: its own name; without one, that of its structure, or its type.
 std::string display_name(const modes::Scene& scene, std::size_t mode);
 /// "L 12.3 P 4.0 H 88.1 mm"
 std::string patient_coordinates(const glm::dvec3& position_mm);

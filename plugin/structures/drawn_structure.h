@@ -1,6 +1,6 @@
 #pragma once
 
-/// Structures that a scene's contours make, beside those of files: they can be measured, drawn, corrected and written.
+/// Structures defined by contours in the scene instead of a file: they can be measured, drawn, corrected and written.
 
 #include <cstddef>
 
@@ -10,18 +10,18 @@
 
 namespace palpate::plugin {
 
-/// Of a structure whose edits begin with contours (modes::is_drawn()). It has no file; its name is the scene's.
+/// A structure whose edits begin with contours (modes::is_drawn()). It has no file; its name is the scene's.
 io::Structure drawn_structure(const modes::SceneStructure& named);
 
-/// The contours that make it; null: a file does.
+/// The contours that define it; null: a file does.
 const io::ContoursEdit* contours_of(const io::Structure& structure);
 
-/// How many of its edits make the outline that the others change: the contours, or none.
+/// The number of edits at the beginning that define the structure: 1 for contours, otherwise 0.
 inline std::size_t making_edits(const io::Structure& structure) {
   return contours_of(structure) ? 1 : 0;
 }
 
-/// Whether both are the same structure of the same file, or drawn in the scene by the same name.
+/// Whether both are the same structure of the same file, or contours of the same name in the scene.
 inline bool is_same(const io::Structure& a, const io::Structure& b) {
   return a.file == b.file && a.number == b.number && (!a.file.empty() || a.name == b.name);
 }

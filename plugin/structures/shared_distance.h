@@ -1,7 +1,7 @@
 #pragma once
 
-/// The distance field of a structure on a scan. All callers share one field while any of them holds it, so that what is
-/// drawn is what is felt.
+/// The distance field of a structure on a scan. All callers share one field while any of them holds it, so that drawing
+/// and force use the same one.
 
 #include <memory>
 
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin {
 
-/// Whether each voxel of one lies where that of the other does, as in two frames of a series.
+/// Whether the voxels of both have the same positions, as in two frames of a series.
 bool same_place(const io::Geometry& a, const io::Geometry& b) noexcept;
 
 /// The field with exactly this reach. From any thread. Throws io::DicomError that names the file and the structure.
@@ -21,7 +21,7 @@ std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& st
 /// For drawing: a field with any reach, because the surface is the same with every reach.
 std::shared_ptr<const io::DistanceField> shared_distance(const io::Structure& structure, const io::Geometry& scan);
 
-/// The field of a structure that contours make, with exactly this reach. From any thread. Throws InvalidInput that
+/// The field of a structure defined by contours, with exactly this reach. From any thread. Throws InvalidInput that
 /// begins with "contours: ".
 std::shared_ptr<const io::DistanceField> shared_distance(const io::ContoursEdit& contours, const io::Geometry& scan,
                                                          double reach_mm);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The field of a structure after an edit. All callers share one field while any of them holds it, as in
-/// shared_distance.h: what is drawn is what is felt, and no edit is computed twice.
+/// shared_distance.h: drawing and force use the same field, and no edit is computed twice.
 
 #include <memory>
 #include <span>
@@ -12,7 +12,8 @@
 
 namespace palpate::plugin {
 
-/// From any thread. The same bits as io::apply_edit(). A scan that nobody owns is shared with no other call.
+/// From any thread. The same bits as io::apply_edit(). If the scan has no owner, the field is not shared with other
+/// calls.
 std::shared_ptr<const io::DistanceField> shared_edited(const std::shared_ptr<const io::DistanceField>& before,
                                                        const io::Edit& edit,
                                                        const std::shared_ptr<const io::Volume>& scan);

@@ -15,12 +15,12 @@ namespace palpate::plugin {
 /// 16 hexadecimal digits; all zero if the file cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
-/// Files of a server that were fetched, by their names there, and where they are here. A scene names them as the server
-/// does. From any thread. The next call takes the place of the last.
+/// Sets the local copies of a server's files, by their names on the server, which scenes use. From any thread. Replaces
+/// those of the previous call.
 void set_fetched_files(std::map<std::filesystem::path, std::filesystem::path> here_by_name);
-/// Where the file of that name is read: the file itself, unless it was fetched.
+/// The local path of the file with that name: the name itself, unless it was fetched.
 std::filesystem::path copy_of(const std::filesystem::path& name);
-/// What a scene calls a file of this machine: its own path, unless it was fetched.
+/// A scene's name for a local file: its own path, unless it was fetched.
 std::filesystem::path name_of_copy(const std::filesystem::path& here);
 
 /// The scene, with the hash of each structure's file in place of its name.
@@ -33,8 +33,8 @@ class StructureFiles {
   /// Files and folders. They are searched when a scene asks for a structure.
   explicit StructureFiles(std::vector<std::filesystem::path> places) : places_(std::move(places)) {}
 
-  /// The scene that was given to without_paths(), with the files as they are named here. Throws std::invalid_argument
-  /// that names a structure whose file is missing.
+  /// The scene before without_paths(), with the local names of the files. Throws std::invalid_argument naming a
+  /// structure whose file is missing.
   modes::Scene with_paths(modes::Scene scene);
 
  private:

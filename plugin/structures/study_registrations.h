@@ -1,6 +1,6 @@
 #pragma once
 
-/// The registrations of a study, looked for beside its structures.
+/// The registrations of a study, searched beside its structures.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace palpate::plugin {
 
-/// Reads each file once, however many structures ask for it.
+/// Reads each file once for any number of structures.
 class StudyRegistrations {
  public:
   static constexpr std::size_t most_files = 20000;  ///< beside one structure
@@ -24,9 +24,9 @@ class StudyRegistrations {
   explicit StudyRegistrations(io::Progress progress = {}, std::size_t most = most_files)
       : progress_(std::move(progress)), most_(most) {}
 
-  /// The registrations for a structure whose frame of reference is not the scan's: those in the folder of its file with
-  /// all that it holds, and in the folders beside that one, as a study is stored; by file. Empty if the frames are the
-  /// same. Adds to the structure's warnings if more files lie there than are read. Throws Cancelled.
+  /// The registrations for a structure whose frame of reference is not the scan's, sorted by file: those in the folder
+  /// of its file, with all subfolders, and in the folders beside it. Empty if the frames are the same. Adds a warning
+  /// to the structure if there are more files than are read. Throws Cancelled.
   std::vector<io::Registration> beside(io::Structure& structure, const io::Volume& scan);
 
  private:

@@ -1,7 +1,6 @@
 #pragma once
 
-/// The boundaries that are felt, in their own colors: as lines on the slices that are shown, and as surfaces in the
-/// volume view where that is wanted.
+/// The felt boundaries in their own colors: as lines on the slices, and optionally as surfaces in the volume view.
 
 #include <memory>
 #include <optional>
@@ -26,16 +25,16 @@ class BoundaryContours {
   BoundaryContours(const BoundaryContours&) = delete;
   BoundaryContours& operator=(const BoundaryContours&) = delete;
 
-  /// Sets what is drawn: the boundaries that this plan of the scene has in the volume. They are computed in the
-  /// background; lines of the same slice and scan stay meanwhile, others are hidden at once. What was computed of the
-  /// scenes before is kept, so that a step back is seen at once; only while a node is dragged are lines of a scene
-  /// before seen. Without a volume or a plan nothing is drawn.
+  /// Sets what is drawn: the boundaries of this plan of the scene in the volume. They are computed in the background.
+  /// Meanwhile lines of the same slice and scan stay, others are hidden at once. Results of earlier scenes are kept, so
+  /// that an undone step is shown at once. Lines of an earlier scene are shown only while a node is dragged. Without a
+  /// volume or a plan nothing is drawn.
   void set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
                 const std::shared_ptr<const modes::Plan>& plan, Pace pace);
   void set_visible(bool visible);
-  /// Surfaces instead of the scan in the volume view.
+  /// Shows surfaces instead of the scan in the volume view.
   void set_surfaces(bool visible);
-  /// The fields that are felt at a place in the patient, mm: value and gradient. None outside the scan.
+  /// The felt fields at a place in the patient, mm: value and gradient. None outside the scan.
   std::optional<io::Sample> sample(const glm::dvec3& place) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The ball that adds to a structure or takes away from it, in all views of the scan: where it is and how large.
+/// The ball of add and remove, drawn in all views of the scan.
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -25,8 +25,8 @@ class BrushViews {
   BrushViews(const BrushViews&) = delete;
   BrushViews& operator=(const BrushViews&) = delete;
 
-  /// None: it is hidden. On the slices a circle, where the ball cuts them. The volume, which takes long to draw, shows
-  /// it with its next picture.
+  /// None hides it. On slices it is a circle where the ball cuts them. The volume view, which is slow to draw, shows it
+  /// in its next picture.
   void show(const std::optional<Brush>& brush);
 
  private:

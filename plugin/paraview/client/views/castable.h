@@ -6,12 +6,12 @@ class vtkImageData;
 
 namespace palpate::plugin {
 
-/// Whether VTK's ray caster for processors draws such a scan: one number a voxel, and of wide numbers neither a
-/// boundless range nor fewer than eight voxels along an axis.
+/// Whether VTK's software ray caster can draw such a scan: one number a voxel; if the numbers are wider than 16 bits, a
+/// range below 1e6 and at least eight voxels along each axis.
 bool can_be_cast(vtkImageData& image);
 
-/// The same image; a copy where floats are no numbers or say that nothing was measured (the least float there is):
-/// these have the least value of the others, since the caster turns values into 15 bits.
+/// The same image, or a copy if some floats are NaN or mark missing data (the lowest float): these get the least of the
+/// other values, because the caster maps values to 15 bits.
 vtkSmartPointer<vtkImageData> of_numbers_alone(vtkImageData& image);
 
 }  // namespace palpate::plugin

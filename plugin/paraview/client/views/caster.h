@@ -1,7 +1,7 @@
 #pragma once
 
-/// VTK's ray caster for processors, with a light that is not computed anew where nothing changed, and with pictures
-/// that can be cast in turns, so that the thread that paints is never long busy with one.
+/// VTK's software ray caster with two additions: it does not recompute shading if nothing has changed, and it can cast
+/// a picture in turns, so that the UI thread is never busy with it for long.
 
 #include <vtkFixedPointVolumeRayCastMapper.h>
 
@@ -18,13 +18,13 @@ class Caster : public vtkFixedPointVolumeRayCastMapper {
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
-  /// While on, Render casts nothing: it shows the picture before, however coarse, until cast_rows() has cast all rows
-  /// and Render is called again. A change of what is seen begins anew.
+  /// While on, Render casts nothing: it shows the previous, perhaps coarse picture until cast_rows() has cast all rows
+  /// and Render is called again. A change of the picture starts again.
   void set_in_turns(bool in_turns);
   bool has_rows_left() const { return 2 * static_cast<std::size_t>(next_row_) < bounds_.size(); }
-  /// As many as it can in some milliseconds, from the lowest up. Returns whether none is left.
+  /// Casts rows for some milliseconds, from the lowest up. Returns whether none is left.
   bool cast_rows();
-  /// Whether the picture that Render was asked for in turns is drawn in full.
+  /// Whether the picture requested by Render in turns is complete.
   bool is_whole() const { return !turned_ || bounds_.empty(); }
 
  protected:
@@ -42,11 +42,11 @@ class Caster : public vtkFixedPointVolumeRayCastMapper {
   bool in_turns_ = false, turned_ = false;
   std::vector<int> bounds_;  ///< of a picture that is cast in turns: the first and last pixel of each row; else empty
   int next_row_ = 0;
-  double cast_s_ = 0;  ///< how long its rows have taken
+  double cast_s_ = 0;  ///< time taken by its rows
 };
 
-/// To be called again and again until it returns true: the renderer's volumes are drawn in full then. Each time it
-/// casts for some milliseconds, and calls `draw`, which renders, at the beginning and at the end alone.
+/// To be called until it returns true: then the renderer's volumes are completely drawn. Each call casts for some
+/// milliseconds; `draw`, which renders, is called only in the first and the last one.
 bool draw_in_turns(vtkRenderer& renderer, const std::function<void()>& draw);
 
 }  // namespace palpate::plugin

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Prepares in the background a mapper that draws a volume without a graphics card: first a coarse one for a large
-/// volume, then that of all voxels. What was there before is drawn until then.
+/// Prepares in the background a mapper that draws a volume without a graphics card: for a large volume first a coarse
+/// one, then one of all voxels. Until then the previous one is drawn.
 
 #include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkImageData.h>
@@ -15,18 +15,18 @@ namespace palpate::plugin {
 
 class Casting {
  public:
-  /// `changed`: mapper() or can_cast() has.
+  /// `changed`: called when mapper() or can_cast() has changed.
   explicit Casting(std::function<void()> changed) : changed_(std::move(changed)) {}
 
-  /// Does nothing for the image that it prepares, or has prepared, already.
+  /// Does nothing for an image that is already prepared or being prepared.
   void prepare(vtkImageData& image);
-  /// Another scan: what was prepared is of the one before.
+  /// Another scan: drops the previous scan's mapper.
   void forget();
-  /// Before the end of what draws it.
+  /// To be called before the object that draws is destroyed.
   void finish() { job_.finish(); }
-  /// Null: there is none yet.
+  /// Null: not ready yet.
   vtkFixedPointVolumeRayCastMapper* mapper() const { return mapper_; }
-  /// False: none could be prepared.
+  /// False: preparation has failed.
   bool can_cast() const { return !failed_; }
 
  private:
@@ -36,7 +36,7 @@ class Casting {
   std::function<void()> changed_;
   vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> mapper_;
   vtkSmartPointer<vtkImageData> image_;
-  bool coarse_ = false;  // what is being prepared
+  bool coarse_ = false;  // of the mapper being prepared
   bool failed_ = false;
   Job job_{Job::Newer::follows};
 };

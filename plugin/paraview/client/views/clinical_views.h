@@ -37,75 +37,76 @@ class ClinicalViews {
   ClinicalViews& operator=(const ClinicalViews&) = delete;
   ~ClinicalViews();
 
-  /// Is told that the views are there, or with an error, in words, that they are not.
+  /// Called when the views are complete, or with an error in words.
   using Shown = std::function<void(const std::string& error)>;
-  /// Makes the views of an image in a layout of their own, the first slices in the middle: one after the other, each in
-  /// a turn of the event loop of its own. The source has to be up to date. close() ends it; nothing is told then.
+  /// Makes the views of an image in a layout of their own, with the middle slices: one view after the other, each in
+  /// its own turn of the event loop. The source must be up to date. close() cancels it; then `shown` is not called.
   void show(pqPipelineSource& source, Shown shown);
-  /// To be called before the source is made: the empty view of a fresh session, unseen yet, would be drawn first.
+  /// To be called before the source is made; otherwise the empty, hidden view of a fresh session would be drawn first.
   void make_room();
-  /// What is still to be made is not made: what was to be shown is gone, or has views already.
+  /// Makes no more views, because the source has gone or already has views.
   void stop_making();
-  /// The same where the session goes that all is in: what is held of its scan goes, and the views go with it.
+  /// The same at the end of the session: also releases everything of its scan; the views end with the session.
   void let_go();
-  /// ParaView handles events while it makes a view, and nothing is to be closed then: this is done at once, or after
-  /// the view that is being made. Of several that wait for it, the last is done.
+  /// Runs the step at once, or after the view that is being made: ParaView handles events meanwhile, and nothing must
+  /// be closed then. Of several waiting steps only the last is run.
   void alone(std::function<void()> step) { turns_.alone(std::move(step)); }
-  /// Called when the views begin to be made, and when they are all there, or will not be.
+  /// Called when the making of views begins, and when it has ended, completely or not.
   void set_making_changed(std::function<void(bool)> changed) { making_changed_ = std::move(changed); }
-  /// Takes over existing clinical views of an image, which a state file has restored.
+  /// Takes over an image's clinical views, restored by a state file.
   void adopt(pqPipelineSource& source);
-  /// Removes the views of the layout that was shown last.
+  /// Removes the views of the latest layout.
   void close();
-  /// Removes their tab, too, where nothing else stands in it.
+  /// Also removes their tab if it contains nothing else.
   void drop_layout();
   void set_window(const Window& window);
   const Window& window() const { return window_->window; }
   /// The windows offered for the scan that is shown, the first one first; empty if no scan is shown.
   const std::vector<NamedWindow>& windows() const { return windows_; }
-  /// The looks offered for the volume, and which of them it was first shown with. None: a state file has restored the
-  /// volume with a look of somebody's own.
+  /// The appearances offered for the volume, and the index of the first one used. None: a state file has restored the
+  /// volume with an appearance of its own.
   const std::vector<VolumeLook>& looks() const { return looks_; }
   std::optional<std::size_t> first_look() const { return first_look_; }
-  /// How places under the pointer are written from now on.
+  /// The notation of positions under the pointer.
   void set_coordinates(Coordinates coordinates) { window_->coordinates = coordinates; }
-  /// Handles the left button in the slices from now on; empty: the button sets the window again.
+  /// `pick` gets the left button in the slices; empty: the button adjusts the window again.
   void set_pick(std::function<void(Pick, const glm::dvec3&)> pick) { window_->pick = std::move(pick); }
 
-  /// What the next drag in a slice measures.
+  /// The type of measurement that the next drag in a slice makes.
   void set_measure(Measure measure);
-  /// Called when another measure is chosen, or none, also after something was measured.
+  /// Called when this type changes, also after a measurement.
   void set_measure_changed(std::function<void(Measure)> changed) { measure_changed_ = std::move(changed); }
-  /// What the corners of the slices tell of the scan; set after show().
+  /// The texts about the scan in the corners of the slices; to be set after show().
   void set_scan_texts(const QString& identity, double thickness_mm);
   void set_frame_text(const QString& frame);
 
-  /// What is cut away from the volume; null before a scan is shown.
+  /// Cuts table and surroundings away from the volume; null before a scan is shown.
   PatientVolume* patient() const { return patient_.get(); }
   /// Called when what can be cut away changes.
   void set_patient_changed(std::function<void()> changed) { patient_changed_ = std::move(changed); }
 
-  /// Those that are open, the slices first.
+  /// The open views, the slices first.
   std::vector<ClinicalView> views() const;
-  /// Moves every slice view to the slice nearest to a place in the patient, mm. Cheap where none changes.
-  /// One whose slices have the normal `but` stays.
+  /// Moves every slice view to the slice nearest to a place in the patient, mm. Cheap if no slice changes. The view
+  /// with the normal `but` stays.
   void show_point(const glm::dvec3& place, const std::optional<glm::dvec3>& but = {});
-  /// Called when the user leafs through slices.
+  /// Called when the user browses slices.
   void set_leafed(std::function<void()> leafed) { window_->leafed = std::move(leafed); }
-  /// Called with the place under the pointer in a slice when that has moved; with none when it has left.
+  /// Called with the place under the pointer in a slice when it has moved, and with none when it has left.
   void set_pointed(std::function<void(const std::optional<glm::dvec3>&)> pointed) {
     window_->pointed = std::move(pointed);
   }
-  /// Called when the window is another one, whoever has changed it.
+  /// Called when the window has changed, for any reason.
   void set_window_changed(std::function<void()> changed) { window_changed_ = std::move(changed); }
-  /// Called when a double click has enlarged a view, or brought it back; and when all stand beside each other anew.
+  /// Called when a double click has enlarged a view or restored it, and when all views are arranged again.
   void set_enlarged_changed(std::function<void(bool)> changed) { enlarged_changed_ = std::move(changed); }
   /// Called when a slice view shows another slice.
   void set_slice_shown(std::function<void(SliceView&)> shown) { window_->slice_shown = std::move(shown); }
-  /// Another frame is shown: what is told of the place under the pointer follows.
+  /// Another frame is shown: updates the text about the place under the pointer.
   void refresh_values();
-  /// The same, read completely: windows and looks are offered anew for its values. The window that was one of those
-  /// offered before becomes the frame's own of that name; speeds keep theirs, which are to be compared.
+  /// The same for a frame that was read completely: windows and appearances are offered for its values. If the present
+  /// window is one of those offered before, it is replaced by the frame's own of that name; speeds keep theirs, for
+  /// comparison.
   void show_frame_values(vtkSMSourceProxy& image);
 
  private:
@@ -137,8 +138,8 @@ class ClinicalViews {
   std::vector<VolumeLook> looks_;
   std::optional<std::size_t> first_look_;
   std::vector<QPointer<SliceView>> slices_;
-  std::unique_ptr<OrientationMarker> marker_;  ///< of the volume's view; before that goes
-  std::shared_ptr<PatientVolume> patient_;     ///< the same
+  std::unique_ptr<OrientationMarker> marker_;  ///< of the volume's view; must be destroyed before it
+  std::shared_ptr<PatientVolume> patient_;     ///< likewise
   struct OpenView {
     ViewKind kind;
     QPointer<pqRenderView> view;
@@ -148,7 +149,7 @@ class ClinicalViews {
   };
   std::vector<OpenView> views_;
   vtkWeakPointer<vtkSMViewLayoutProxy> layout_;  ///< the tab that the scan is shown in, used again for the next
-  QObject lifetime_;                             // its end ends what is connected to the views
+  QObject lifetime_;                             // its destructor ends the connections to the views
   std::shared_ptr<Making> making_;               // while the views are made
   Turns turns_;
 };

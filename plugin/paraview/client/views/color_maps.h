@@ -1,6 +1,6 @@
 #pragma once
 
-/// ParaView's color maps, as slices and volumes of a scan use them.
+/// ParaView's color maps for slices and volumes of a scan.
 
 #include <cstddef>
 #include <optional>
@@ -18,9 +18,9 @@ vtkSMProxy* gray_map(pqServer& server);
 void set_window(vtkSMProxy& gray_map, const Window& window);
 Window window_of(vtkSMProxy& gray_map);
 
-/// Sets a look on the maps of a representation's array.
+/// Applies an appearance to the color maps of a representation's array.
 void set_volume_look(vtkSMProxy& representation, const VolumeLook& look);
-/// Which of them a representation has; none: somebody has set it otherwise.
+/// The index of a representation's appearance; none: it is not one of these.
 std::optional<std::size_t> look_of(vtkSMProxy& representation, const std::vector<VolumeLook>& looks);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A box in the volume view, with a handle on each of its sides: what lies outside is cut away.
+/// A box in the volume view with a handle on each side; everything outside is cut away.
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -17,14 +17,14 @@ namespace palpate::plugin {
 
 class CropBox {
  public:
-  /// About a box of patient space: least and greatest x, y and z, mm.
+  /// Starts at these bounds: least and greatest x, y and z, patient space, mm.
   CropBox(pqRenderView& view, const double bounds[6]);
   CropBox(const CropBox&) = delete;
   CropBox& operator=(const CropBox&) = delete;
   ~CropBox();
 
   void set_visible(bool visible);
-  /// For the mapper of what is cropped; they follow the handles.
+  /// Clipping planes for the cropped volume's mapper; they follow the handles.
   vtkPlaneCollection* planes() const { return planes_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How long the views' pictures take: the thread that draws them does nothing else meanwhile.
+/// Measures how long the views' pictures take: the UI thread is busy meanwhile.
 
 #include <functional>
 #include <memory>
@@ -12,7 +12,7 @@ namespace palpate::plugin {
 
 class DrawingWatch {
  public:
-  /// `drawn` is told of each picture, seconds.
+  /// `drawn` is called after each picture, with its duration.
   DrawingWatch(OpenViews& views, std::function<void(double seconds)> drawn);
   ~DrawingWatch();
   DrawingWatch(const DrawingWatch&) = delete;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// One view alone in the place of all views of its tab, and back again.
+/// Shows one view in place of all views of its tab, and back again.
 
 #include <functional>
 
@@ -11,16 +11,16 @@ class vtkSMViewLayoutProxy;
 
 namespace palpate::plugin {
 
-/// The tab in which a view stands; null where it stands in none.
+/// The tab of a view; null if it is in none.
 vtkSMViewLayoutProxy* layout_of(pqRenderView& view);
 bool is_enlarged(pqRenderView& view);
-/// Alone, or all of its tab again.
+/// Shows the view alone, or all views of its tab again.
 void set_enlarged(pqRenderView& view, bool enlarged);
 
-/// Double clicks in a view enlarge it and bring it back. May go before its view or after it.
+/// Double clicks in a view enlarge it and restore it. May be destroyed before or after its view.
 class DoubleClickEnlarges {
  public:
-  /// `changed` is told whether it is enlarged now.
+  /// `changed` gets whether it is enlarged now.
   DoubleClickEnlarges(pqRenderView& view, std::function<void(bool)> changed);
   DoubleClickEnlarges(const DoubleClickEnlarges&) = delete;
   DoubleClickEnlarges& operator=(const DoubleClickEnlarges&) = delete;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The boundaries that are felt, as shaded surfaces in their own colors, where they are felt, in the volume view.
+/// The felt boundaries as shaded surfaces in their own colors, in the volume view.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -13,20 +13,20 @@
 
 namespace palpate::plugin {
 
-/// Of one of the scene's modes: triangles in patient space, mm.
+/// The surface of one of the scene's modes: triangles in patient space, mm.
 struct FeltSurface {
   std::size_t mode = 0;
-  double opacity = 1;  ///< by its strength, of the strongest
+  double opacity = 1;  ///< by its strength, relative to the strongest
   std::vector<glm::vec3> points;
   std::vector<glm::vec3> normals;
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// As felt_contours() on the whole scan, on a lattice of at most some millions of its voxels.
+/// As felt_contours(), on the whole scan, on a lattice of at most some millions of its voxels.
 std::vector<FeltSurface> felt_surfaces(const io::Volume& volume, const modes::Scene& scene, const modes::Plan& plan,
                                        const io::FieldSource& source);
 
-/// What is drawn of them. While they are drawn the scan itself is not.
+/// Draws the surfaces. While they are visible, the scan is not.
 class FeltSurfaces {
  public:
   FeltSurfaces();
@@ -34,10 +34,10 @@ class FeltSurfaces {
   FeltSurfaces(const FeltSurfaces&) = delete;
   FeltSurfaces& operator=(const FeltSurfaces&) = delete;
 
-  /// The views of a scan that has just been shown; empty: none. They are not shown at first.
+  /// The views of a new scan; empty: none. The surfaces are hidden at first.
   void set_views(const std::vector<ClinicalView>& views);
   void set_visible(bool visible);
-  /// As BoundaryContours::set_felt(); null: nothing is drawn. Made in the background where it is seen.
+  /// As BoundaryContours::set_felt(); null: nothing is drawn. Computed in the background while visible.
   void set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
                 const std::shared_ptr<const modes::Plan>& plan, const std::shared_ptr<const io::FieldSource>& source);
 

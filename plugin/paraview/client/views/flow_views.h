@@ -1,7 +1,6 @@
 #pragma once
 
-/// A velocity field as arrows on the slices that are shown: the part of it that lies in the slice, by its direction and
-/// speed.
+/// A velocity field as arrows on the slices: its component within the slice, by direction and speed.
 
 #include <QPointer>
 
@@ -22,7 +21,7 @@ class FlowViews {
   FlowViews(const FlowViews&) = delete;
   FlowViews& operator=(const FlowViews&) = delete;
 
-  /// What is drawn; nothing where it is no vector field.
+  /// The volume to draw; nothing is drawn if it is not a vector field.
   void set_volume(const std::shared_ptr<const io::Volume>& volume);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the client knows of an image without its voxels: asked of the server.
+/// Facts about an image that a client gets from the server, without its voxels.
 
 #include <vtkSmartPointer.h>
 
@@ -29,18 +29,18 @@ struct ImageLattice {
   glm::dvec3 center() const;
 };
 
-/// Of a source that is up to date; from a remote server, one question and answer of a tenth of a second. Throws
-/// std::runtime_error where it gives no image.
+/// For a source that is up to date. On a remote server, one request that takes a tenth of a second. Throws
+/// std::runtime_error if the source gives no image.
 ImageLattice lattice_of(vtkSMSourceProxy& source);
 
-/// The value of the voxel nearest to a place in the patient (mm); none outside and in gaps. Asked of the server.
+/// The value of the voxel nearest to a place in the patient (mm); none outside and in gaps. Requested from the server.
 class ValueProbe {
  public:
   explicit ValueProbe(vtkSMSourceProxy& reader);
   std::optional<double> at(const glm::dvec3& place);
-  /// Below the n-th are n percent of the voxels; empty if that is not known.
+  /// Percentiles: n percent of the voxels are below the n-th; empty if unknown.
   std::vector<double> shares();
-  /// Of the patient's body, what is as light as lungs, 0 to 1; none if that is not known.
+  /// The fraction of the patient's body that is as light as lungs, 0 to 1; none if unknown.
   std::optional<double> light_part();
 
  private:

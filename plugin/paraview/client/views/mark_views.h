@@ -1,7 +1,7 @@
 #pragma once
 
-/// Marks in the views of a scan: balls with their names, paths, distances and angles with what they measure. On a slice
-/// what lies on it, and fainter what lies near it.
+/// Marks in the views of a scan: balls with names, paths, distances and angles with their values. On a slice, those on
+/// it are drawn, and fainter those near it.
 
 #include <functional>
 #include <memory>
@@ -15,22 +15,22 @@ namespace palpate::plugin {
 
 class MarkViews {
  public:
-  /// What is drawn, asked for whenever it is.
+  /// Returns the marks at each drawing.
   using Ask = std::function<const Marks&()>;
   MarkViews(OpenViews& views, Ask marks);
   ~MarkViews();
   MarkViews(const MarkViews&) = delete;
   MarkViews& operator=(const MarkViews&) = delete;
 
-  /// The marks that are chosen are drawn larger, and what lies between them with a line.
+  /// Chosen marks are drawn larger, with lines between them.
   void set_chosen(std::vector<std::size_t> chosen);
-  /// Draws all anew.
+  /// Draws everything again.
   void refresh();
 
  private:
   struct One;
   void set_views(const std::vector<ClinicalView>& views);
-  /// Draws what is on the slice that a view shows now. The caller renders the view.
+  /// Draws the marks on the slice that a view shows now. The caller renders the view.
   void show(SliceView& slice);
   void draw(One& one);
 

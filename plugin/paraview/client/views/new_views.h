@@ -1,6 +1,6 @@
 #pragma once
 
-/// How the views of a scan are made of ParaView's own: views, their layout, and what shows an image in them.
+/// Makes a scan's views from ParaView's own: views, layout and representations.
 
 #include <glm/vec3.hpp>
 
@@ -13,7 +13,7 @@ class vtkSMViewLayoutProxy;
 
 namespace palpate::plugin {
 
-/// Black and without axes. A flat one is moved, not turned.
+/// Black and without axes. A flat view is panned, not rotated.
 pqRenderView* make_view(pqServer& server, bool flat);
 /// An empty tab.
 vtkSMViewLayoutProxy& make_layout(pqServer& server);
@@ -22,8 +22,8 @@ void remove_layout(vtkSMViewLayoutProxy& layout);
 vtkSMProxy& show_as(const char* representation, vtkSMSourceProxy& image, pqRenderView& view, const char* array);
 /// From the front and a little from the patient's left and above; the head up. `center` in patient space, mm.
 void look_from_the_front(const pqRenderView& view, const glm::dvec3& center);
-/// A trace shows the scan in a view of ParaView's own. The clinical views are the panel's, and the panel is not there
-/// when a trace is replayed.
+/// Makes a trace show the scan in a view of ParaView's own: the clinical views are the panel's, which is missing when a
+/// trace is replayed.
 void trace_shown(pqPipelineSource& source);
 
 }  // namespace palpate::plugin

@@ -1,8 +1,7 @@
 #pragma once
 
-/// Directions as numbers of 16 bits, for VTK's ray caster: unfolded from an octahedron, without the angles that VTK's
-/// own encoders compute, which take half of the time of a volume's gradients. (Meyer and others, "On floating-point
-/// normal vectors", 2010.)
+/// Directions as 16-bit numbers for VTK's ray caster, by unfolding an octahedron. VTK's own encoders compute angles,
+/// which take half of the time of a volume's gradients. (Meyer and others, "On floating-point normal vectors", 2010.)
 
 #include <array>
 #include <vector>
@@ -14,7 +13,7 @@ using Direction = std::array<float, 3>;
 
 constexpr int direction_codes = 65536;
 
-/// 0 to direction_codes - 1. The decoded direction is less than a degree off.
+/// 0 to direction_codes - 1. The error of the decoded direction is less than a degree.
 int code_of(const float* direction);
 Direction direction_of(int code);
 /// All of them, one after the other.

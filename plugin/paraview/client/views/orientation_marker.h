@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which way the patient lies in a view of the volume: a cross with R, L, A, P, H and F at its ends. ParaView's own
-/// marker says X, Y and Z, and these letters cannot be changed.
+/// The patient's orientation in a view of the volume: a cross with R, L, A, P, H and F at its ends. ParaView's own
+/// marker shows fixed letters X, Y and Z.
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -18,7 +18,7 @@ class vtkTextActor;
 
 namespace palpate::plugin {
 
-/// In the view's lower left corner; turns with the camera. What points away is dim.
+/// In the view's lower left corner; rotates with the camera. Arms that point away are dim.
 class OrientationMarker {
  public:
   explicit OrientationMarker(vtkPVRenderView& view);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A layer of a view's own above all else in it, with depths of its own: neither a slice nor a surface covers it.
+/// A layer in front of everything else in a view, with its own depth buffer: neither slices nor surfaces cover it.
 
 #include <vtkSmartPointer.h>
 

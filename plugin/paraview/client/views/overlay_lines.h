@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lines of one color above a slice view.
+/// Lines of one color in front of a slice view.
 
 #include <pqRenderView.h>
 #include <vtkActor.h>

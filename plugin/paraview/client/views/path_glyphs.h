@@ -1,6 +1,6 @@
 #pragma once
 
-/// A path through the patient in one view: a line with a ball at its ends, over all else.
+/// A path through the patient in one view: a line with balls at its ends, in front of everything else.
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -18,7 +18,7 @@ class PathGlyphs {
   PathGlyphs& operator=(const PathGlyphs&) = delete;
   ~PathGlyphs();
 
-  /// mm, patient space; empty hides it. The view has to be drawn anew.
+  /// mm, patient space; empty hides it. The caller renders the view.
   void show(const std::vector<glm::dvec3>& path);
 
  private:

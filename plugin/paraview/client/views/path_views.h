@@ -20,7 +20,7 @@ class PathViews {
       : color_(std::move(color)),
         following_(views.follow(Layer::paths, [this](const auto& open) { set_views(open); })) {}
 
-  /// Empty: none. `passing`: another one follows at once, so that the volume, which takes long to draw, can wait.
+  /// Empty: none. `passing`: another path follows at once, so the volume view, which is slow to draw, can wait.
   void show(const std::vector<glm::dvec3>& path, bool passing = false);
 
  private:

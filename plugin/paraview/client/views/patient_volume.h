@@ -1,9 +1,9 @@
 #pragma once
 
 /// The scan in the volume view as a patient: without table and headrest, and cropped by a box with handles. ParaView's
-/// own representation stays in the pipeline with its colors and opacity; while something is cut away, a copy of it is
-/// drawn in its place. Of several frames the one that is shown. Only for scans in this process: a server's scan is
-/// drawn as ParaView draws it.
+/// own representation stays in the pipeline with its colors and opacity; while something is cut away, a copy is drawn
+/// in its place. Of several frames the shown one is drawn. Only for scans in this process: a server's scan is drawn as
+/// ParaView draws it.
 
 #include <vtkSmartPointer.h>
 
@@ -28,9 +28,9 @@ class EventWatch;
 
 class PatientVolume {
  public:
-  /// Looks for the body in the background, where the scan is one of HU and of one frame. `changed` is called when
-  /// can_cut() has become known. The volume is drawn from then on, or after 3 s, and in any case after the slices:
-  /// without a graphics card its picture takes seconds.
+  /// Searches the body in the background, if the scan has HU and one frame. `changed` is called when can_cut() is
+  /// known. Then, or after 3 s, the volume is drawn, but always after the slices: without a graphics card its picture
+  /// takes seconds.
   PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool hounsfield, std::function<void()> changed);
   PatientVolume(const PatientVolume&) = delete;
   PatientVolume& operator=(const PatientVolume&) = delete;
@@ -38,7 +38,7 @@ class PatientVolume {
 
   /// Whether there is anything outside the body that can be cut away.
   bool can_cut() const { return cut_image_ != nullptr; }
-  /// Without table and headrest, where they have been found; so it begins.
+  /// Cuts away table and headrest, if they were found; on at first.
   void set_cut(bool cut);
   /// Whether the scan is in this process, and can be cropped.
   bool can_crop() const { return whole_image_ != nullptr; }
@@ -61,13 +61,13 @@ class PatientVolume {
   std::function<void()> changed_;
   vtkSmartPointer<vtkImageData> whole_image_, cut_image_;
   vtkSmartPointer<vtkVolume> own_;
-  std::unique_ptr<EventWatch> look_watch_;  // of what is chosen for ParaView's
-  std::unique_ptr<EventWatch> type_watch_;  // whether that is a volume
-  vtkSmartPointer<vtkVolume> taken_out_;    // ParaView's, while it is not drawn
+  std::unique_ptr<EventWatch> look_watch_;  // of the properties of ParaView's representation
+  std::unique_ptr<EventWatch> type_watch_;  // of whether that is a volume
+  vtkSmartPointer<vtkVolume> taken_out_;    // ParaView's volume, while it is not drawn
   std::unique_ptr<CropBox> box_;
   bool cut_ = true, cropped_ = false, hidden_ = false, waits_ = true;
-  QObject lifetime_;  // its end ends what is connected to the scan
-  // Last: they end before what they set.
+  QObject lifetime_;  // its destructor ends the connections to the scan
+  // Last: they end before the members that they set.
   Casting casting_{[this] { refresh(); }};  // without a graphics card
   Job seeking_body_{Job::Newer::follows};
 };

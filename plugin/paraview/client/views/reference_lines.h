@@ -1,6 +1,6 @@
 #pragma once
 
-/// A crosshair in each slice: where the slices of the other two views cross it.
+/// A crosshair in each slice: its intersections with the slices of the other two views.
 
 #include <memory>
 #include <vector>

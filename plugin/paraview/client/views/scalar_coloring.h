@@ -1,6 +1,6 @@
 #pragma once
 
-/// What ParaView 5.11's representation proxy does itself, and 5.13's a helper.
+/// ParaView 5.11's representation proxy does this itself, 5.13 has a helper class for it.
 
 #include <vtkPVVersion.h>
 #include <vtkSMPVRepresentationProxy.h>
@@ -10,7 +10,7 @@
 
 namespace palpate::plugin {
 
-/// Colors what is shown by an array of its points.
+/// Colors a representation by an array of its points.
 inline void color_by_points(vtkSMPVRepresentationProxy& shown, const char* array) {
 #if PARAVIEW_VERSION_NUMBER >= PARAVIEW_VERSION_CHECK(5, 13, 0)
   vtkSMColorMapEditorHelper::SetScalarColoring(&shown, array, 0);

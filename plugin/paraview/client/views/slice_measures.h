@@ -1,8 +1,8 @@
 #pragma once
 
-/// Lengths and angles, measured with the mouse in a slice: L for a length, A for an angle; the delete key removes the
-/// last one. Each stays on its slice, and goes with the view. They are our own lines, because VTK's widgets would also
-/// take every click beside them.
+/// Lengths and angles measured with the mouse in a slice: L for a length, A for an angle; the delete key removes the
+/// latest one. Each belongs to its slice, and is deleted with the view. The lines are our own, because VTK's widgets
+/// would also take every click beside them.
 
 #include <vtkSmartPointer.h>
 
@@ -23,19 +23,19 @@ namespace palpate::plugin {
 
 class OverlayLayer;
 
-/// What is measured with two places (a length) or three (the angle at the second), mm in the patient: "23.4 mm",
+/// The measurement between two places (a length) or three (the angle at the second), mm in the patient: "23.4 mm",
 /// "45.0°".
 QString measured_text(std::span<const glm::dvec3> places);
 
 class SliceMeasures {
  public:
-  /// Before the slice's own mouse and the stylus' hand while something is to be measured.
+  /// Takes precedence over the slice's own mouse and the stylus' hand while something is to be measured.
   SliceMeasures(SliceView& slice, pqRenderView& view, std::shared_ptr<SharedWindow> window);
   SliceMeasures(const SliceMeasures&) = delete;
   SliceMeasures& operator=(const SliceMeasures&) = delete;
   ~SliceMeasures();
 
-  /// After the view has another slice.
+  /// To be called when the view shows another slice.
   void show_slice();
 
  private:
@@ -56,9 +56,9 @@ class SliceMeasures {
   pqRenderView& view_;
   std::shared_ptr<SharedWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
-  std::unique_ptr<OverlayLayer> layer_;  // made for the first
+  std::unique_ptr<OverlayLayer> layer_;  // made for the first measurement
   std::vector<std::unique_ptr<Drawn>> drawn_;
-  bool unfinished_ = false;  // the last one
+  bool unfinished_ = false;  // of the last measurement
   bool pressed_ = false;
   std::array<int, 2> pressed_at_{};
   EventWatch events_;

@@ -14,7 +14,7 @@ class vtkRenderWindowInteractor;
 
 namespace palpate::plugin {
 
-/// Takes what it uses before ParaView's own interaction sees it, and leaves the rest (zoom, pan) alone.
+/// Handles its own events before ParaView's interaction, and leaves the others (zoom, pan) to it.
 class SliceMouse {
  public:
   SliceMouse(SliceView& owner, vtkRenderWindowInteractor& interactor);

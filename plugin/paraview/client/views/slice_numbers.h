@@ -1,16 +1,16 @@
 #pragma once
 
-/// The number that a slice is called by.
+/// The displayed number of a slice.
 
 namespace palpate::plugin {
 
-/// Which way slices are counted. The scanner's own slices count as its images do (Instance Number); slices that are cut
-/// through them count the way the wheel goes.
+/// The direction in which slices are counted. The scanner's own slices count like its images (Instance Number); slices
+/// across them count in the direction of the wheel.
 struct SliceNumbers {
   bool from_last = false;  ///< the last slice of the lattice is number 1
 };
 
-/// From 1, of a slice counted from 0 along the lattice.
+/// The number, from 1, of a slice counted from 0 along the lattice.
 constexpr int number_of(const SliceNumbers& numbers, int slice, int slices) {
   return numbers.from_last ? slices - slice : slice + 1;
 }

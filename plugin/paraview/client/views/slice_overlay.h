@@ -1,6 +1,6 @@
 #pragma once
 
-/// The text over a slice.
+/// The texts over a slice.
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -21,8 +21,8 @@ namespace palpate::plugin {
 /// Whether a place of a view (0 to 1, from the left and from below) is away from its edges and from all texts.
 bool is_clear_of_texts(double x, double y);
 
-/// Letters at the four edges, which follow the camera. Upper left: what is shown. Lower left: what is under the
-/// pointer. Upper right: who and when. Lower right: where the slice lies and how it is magnified.
+/// Letters at the four edges, which follow the camera. Upper left: the series and window. Lower left: the place under
+/// the pointer. Upper right: patient and date. Lower right: the slice's position and magnification.
 class SliceOverlay {
  public:
   /// `before_drawing` is called before each picture, with the picture's height in pixels.
@@ -37,9 +37,9 @@ class SliceOverlay {
   void set_place(const QString& text);
   /// All but the letters, which tell left from right.
   void set_texts_visible(bool visible);
-  /// Who was scanned: not in pictures that are saved.
+  /// The patient's identity: not in saved pictures.
   void set_identity_visible(bool visible);
-  /// Whether it is another text than before.
+  /// Returns whether the text has changed.
   bool set_pointer(const QString& text);
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A scroll bar at the right edge of a slice view, which shows which slice is shown. It is drawn in the view, because a
-/// view may be a native window, which no widget can cover.
+/// A scroll bar at the right edge of a slice view. It is drawn in the view, because a view may be a native window,
+/// which no widget can cover.
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -25,9 +25,9 @@ class SliceScrollBar {
   /// Sets the slice that is shown, `n` from 0, and the number of slices. Counted from below.
   void set(int n, int of);
   void set_visible(bool visible);
-  /// Whether a place in the view, in pixels from the left, is on it.
+  /// Whether a position in the view, in pixels from the left, is on it.
   bool is_under(int x) const;
-  /// Where `y` lies along the way of the handle, 0 to 1; `y` in pixels from below.
+  /// The position of `y` within the range of the handle, 0 to 1; `y` in pixels from below.
   double part_at(int y) const;
 
  private:

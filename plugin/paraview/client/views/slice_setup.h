@@ -1,15 +1,15 @@
 #pragma once
 
-/// A plane of an image as its slice view needs it.
+/// The settings of a slice view for a plane of an image.
 
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/slice_view.h"
 
 namespace palpate::plugin {
 
-/// What ParaView's slice representation calls slices across the sight's axis.
+/// ParaView's slice mode for slices across the sight's axis.
 int slice_mode(const Sight& sight);
-/// The slice and the camera are left to the caller.
+/// The caller sets the slice and the camera.
 SliceSetup setup_of(const ImageLattice& lattice, Plane plane);
 
 }  // namespace palpate::plugin

@@ -19,12 +19,12 @@ namespace palpate::plugin {
 
 struct DrawnStructure {
   std::shared_ptr<const io::DistanceField> distance;
-  std::shared_ptr<const io::DistanceField> before = {};  ///< of its edits: a thin line; null: nothing is edited
-  glm::dvec3 low_mm{0}, high_mm{0};                      ///< of a box around all of it
+  std::shared_ptr<const io::DistanceField> before = {};  ///< without edits: a thin line; null: no edits
+  glm::dvec3 low_mm{0}, high_mm{0};                      ///< a box around all of it
   vtkSmartPointer<vtkPolyData> surface;
-  vtkSmartPointer<vtkPolyData> surface_before = {};  ///< of `before`, where it is known
+  vtkSmartPointer<vtkPolyData> surface_before = {};  ///< of `before`, if known
   QColor color;
-  /// Where the force of a keep-out or keep-in begins, as the distance has it, mm: inside positive; each is a thin line.
+  /// Distances at which the force of a keep-out or keep-in begins, mm: inside positive; each is a thin line.
   std::vector<double> margins_mm = {};
   bool operator==(const DrawnStructure&) const = default;
 };

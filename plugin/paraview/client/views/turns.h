@@ -1,7 +1,6 @@
 #pragma once
 
-/// Steps that are taken one at a time, each in a turn of the event loop of its own, so that the program stays alive
-/// between them.
+/// Runs steps one at a time, each in its own turn of the event loop, so that the program stays responsive between them.
 
 #include <QTimer>
 
@@ -15,18 +14,17 @@ class Turns {
  public:
   using Step = std::function<void()>;
 
-  /// `failed` is told what a step threw. The steps after it are then dropped.
+  /// `failed` gets the error of a step that throws. Later steps are then dropped.
   explicit Turns(std::function<void(const std::string& error)> failed);
   Turns(const Turns&) = delete;
   Turns& operator=(const Turns&) = delete;
 
   void add(Step step);
-  /// A step that is taken at once, or after the one that is being taken: of several that wait for it, the last. It
-  /// throws nothing.
+  /// Runs a step at once, or after the current one. Of several waiting steps only the last is run. It must not throw.
   void alone(Step step);
-  /// Drops the steps that were not taken yet.
+  /// Drops steps that were not yet run.
   void clear();
-  /// Whether a step is being taken. It may handle events itself; no other step is taken meanwhile.
+  /// Whether a step is running. It may handle events itself; no other step runs meanwhile.
   bool is_inside() const { return inside_; }
 
  private:
@@ -37,7 +35,7 @@ class Turns {
   std::deque<Step> steps_;
   Step waiting_;
   bool inside_ = false;
-  QTimer timer_;  // its end ends what is still to come
+  QTimer timer_;  // its destructor ends pending steps
 };
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A thin frame in the view that is marked: keys and *One-up* are for that one.
+/// A thin frame in the active view: keys and *One-up* apply to it.
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How much is seen through the volume's rendering.
+/// The opacity of the volume's rendering.
 
 #include <vector>
 
@@ -10,7 +10,7 @@ class vtkSMProxy;
 
 namespace palpate::plugin {
 
-/// The opacity of a volume's representation as it is shown now, for each mm of the patient.
+/// The opacity of a volume's representation as it is shown now, for each mm in the patient.
 std::vector<OpacityNode> opacity_of(vtkSMProxy& representation);
 
 }  // namespace palpate::plugin

@@ -17,8 +17,8 @@ namespace palpate::plugin {
 
 class VolumePick {
  public:
-  /// Gets the two ends, near and far (mm), of what the view shows under the pointer. Returns whether it takes the
-  /// button; the view is then not turned.
+  /// Gets the near and far ends (mm) of the visible ray under the pointer. Returns whether it takes the button; the
+  /// view is then not rotated.
   using Ray = std::function<bool(Pick, const glm::dvec3& near, const glm::dvec3& far)>;
 
   VolumePick(vtkPVRenderView& view, Ray ray);
