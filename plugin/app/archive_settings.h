@@ -1,6 +1,6 @@
 #pragma once
 
-/// The archives that a user has entered. The command line and the panel share them.
+/// The archives that a user has configured. The command line and the panel share them.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -20,12 +20,12 @@ std::vector<io::Archive> read_archives();
 /// that names the file.
 void write_archives(const std::vector<io::Archive>& archives);
 
-/// How the archive is reached, as the settings and `palpate archive list --json` have it: name, host, port, AE titles,
-/// how it is fetched from, and where it sends to.
+/// The connection settings, as in the file and in `palpate archive list --json`: name, host, port, AE titles, the
+/// method of fetching, and the address for C-MOVE.
 nlohmann::ordered_json connection_json(const io::Archive& archive);
 
-/// The archive of that name; an empty name means the only one. Throws InputRefused, with the names that there are, if
-/// there is none of that name, or if no name is given and there are several.
+/// The archive of that name; an empty name means the only one. Throws InputRefused with the list of names if there is
+/// none of that name, or if the name is empty and there are several.
 io::Archive archive_named(const std::string& name);
 
 /// The program's folder in one of the user's folders: in the one that the environment variable `variable` names, or

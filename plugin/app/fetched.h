@@ -34,14 +34,14 @@ class FetchedRun {
   /// A folder for the next fetch; it does not exist yet, and will be readable by its owner alone. Throws InputRefused
   /// that names what cannot be written.
   std::filesystem::path next_folder();
-  /// Whether a file or folder lies in this run's folder.
+  /// Whether a file or folder is in this run's folder.
   bool holds(const std::filesystem::path& path) const;
-  /// Whether it stays when the run ends.
+  /// Whether the fetched files stay when the run ends.
   void set_kept(bool kept) { kept_ = kept; }
-  /// Deletes what lies there, as empty_fetched() does, and the fetches of this run except those that hold something
+  /// Deletes everything there, as empty_fetched() does, and the fetches of this run except those that contain something
   /// `in_use`.
   void empty(const std::vector<std::filesystem::path>& in_use);
-  /// Ends the run: deletes its folder. What is to be kept moves to what `palpate fetch` left.
+  /// Ends the run: deletes its folder. Fetches to be kept move to the folder of `palpate fetch`.
   void close();
 
  private:

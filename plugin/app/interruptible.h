@@ -6,7 +6,7 @@
 
 namespace palpate::plugin {
 
-/// While this exists, SIGINT and SIGTERM only set a flag. One at a time.
+/// While this object exists, SIGINT and SIGTERM only set a flag. Only one may exist at a time.
 class Interruptible {
  public:
   Interruptible();
@@ -14,7 +14,7 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
   ~Interruptible();
 
-  /// Whether one of them has come since the last Interruptible began.
+  /// Whether one of these signals has come since the latest Interruptible began.
   static bool interrupted() noexcept;
 
  private:

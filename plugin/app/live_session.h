@@ -44,32 +44,32 @@ class LiveSession {
   void set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene, const ScanFrame& frame = {});
   /// Throws std::invalid_argument that names the key if a scene is not valid; the previous scene then stays.
   void set_scene(const modes::Scene& scene, Pace pace = Pace::stepped);
-  /// The scan as it was read.
+  /// The scan without a filter.
   const std::shared_ptr<const io::Volume>& scan() const noexcept { return volume_; }
-  /// The same as it is felt: through the scene's filter.
+  /// The scan through the scene's filter, as it is felt.
   const std::shared_ptr<const io::Volume>& felt_scan() const noexcept { return felt_.volume; }
   /// Gives the scan through a filter that a scene is about to ask for, so that set_scene() need not compute it.
   void offer(std::shared_ptr<const io::Volume> filtered) { offered_ = {.volume = std::move(filtered)}; }
-  /// The same of a scene that was prepared in another thread: neither its filtered scan nor its structures are made
-  /// again by set_scene(), or set_scan() with its volume.
+  /// The same for a scene that was prepared in another thread, so that set_scene(), or set_scan() with its volume,
+  /// computes neither its filtered scan nor its structures again.
   void offer(PreparedScene ahead) { offered_ = std::move(ahead); }
-  /// Whether everything is at hand that set_scene() needs of structures on this scan. On another scan than scan():
-  /// that set_scan() needs of structures and of the scene's filter. If not, they read files and compute fields, unless
-  /// reading() did so in another thread before.
+  /// Whether everything that set_scene() needs of structures on this scan is in memory. For a scan other than scan():
+  /// everything that set_scan() needs of structures and of the scene's filter. If not, these calls read files and
+  /// compute fields, unless reading() did so before in another thread.
   bool has_read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan) const;
-  /// Work for another thread: reads what has_read() asks about. Its result is to be offered. Throws
-  /// std::invalid_argument that names a structure which cannot be felt.
+  /// Work for another thread: reads what has_read() checks. Pass its result to offer(). Throws std::invalid_argument
+  /// naming a structure that cannot be felt.
   std::function<PreparedScene()> reading(const modes::Scene& scene,
                                          const std::shared_ptr<const io::Volume>& scan) const;
   const modes::Scene& scene() const noexcept { return scene_; }
   /// The plan of the scene on the scan, for the connected stylus, or for the simulated one if none is connected. Null
   /// without a scan.
   std::shared_ptr<const modes::Plan> plan() const noexcept { return felt_.plan; }
-  /// Of the scene: TickRecord::scene_epoch of the ticks that feel it.
+  /// The number of the scene: TickRecord::scene_epoch of its ticks.
   std::uint32_t epoch() const noexcept { return last_epoch_; }
-  /// All that is felt.
+  /// The scene, scan and plan that are felt.
   const PreparedScene& felt() const noexcept { return felt_; }
-  /// A sentence for each limit of the scene that is drawn down for the connected stylus.
+  /// A sentence for each limit of the scene that is reduced for the connected stylus.
   std::vector<Text> drawn_down() const;
   /// N/m: the stiffness that is felt. A scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
@@ -88,20 +88,21 @@ class LiveSession {
   std::optional<RecorderStatus> disconnect() noexcept;
   bool is_connected() const noexcept { return running_ && running_->servo() != nullptr; }
   const device::Specification& specification() const noexcept { return specification_; }
-  /// The same, or that of the simulated stylus if none is connected: scenes are planned for it.
+  /// The specification of the connected stylus, or of the simulated one if none is connected: scenes are planned for
+  /// it.
   device::Specification planned_for() const;
 
-  /// What is wrong with the stylus, in a sentence; empty if nothing is (device::Stylus::trouble()).
+  /// A problem with the stylus, in a sentence; empty if there is none (device::Stylus::trouble()).
   Text trouble() const { return stylus_ ? stylus_->trouble() : Text(); }
 
-  void feel() noexcept;     ///< the force comes up
-  void release() noexcept;  ///< the force falls to zero, and stays there until feel()
-  /// What feel(), release() or connect() asked for last. A cleared fault counts as release().
+  void feel() noexcept;     ///< ramps the force up
+  void release() noexcept;  ///< lets the force fall to zero, where it stays until feel()
+  /// The latest request, by feel(), release() or connect(). A cleared fault counts as release().
   Start start() const noexcept { return start_; }
   void clear_fault() noexcept;
-  /// As Session::press(), until the session ends or begins anew.
+  /// As Session::press(), until the session ends or restarts.
   void press(std::uint32_t buttons) noexcept;
-  /// The orientation of the stylus, device frame. None if it does not measure any, or if none is held.
+  /// The orientation of the stylus, device frame. None if it does not measure one, or if none is connected.
   std::optional<glm::dquat> orientation() const noexcept;
   /// Opens the lost stylus again, without a force until feel(). The recording ends. Throws what Stylus::open() throws;
   /// the stylus is then disconnected.
@@ -113,18 +114,18 @@ class LiveSession {
 
   /// The ticks of the session; null if none has begun yet. Every connect() begins a new session.
   const TickRing* ticks() const noexcept { return running_ ? &running_->ring() : nullptr; }
-  /// The same, for who reads them from another thread: they can be read after the session has ended, too.
+  /// The same for readers in another thread: still readable after the session has ended.
   std::shared_ptr<const TickRing> shared_ticks() const noexcept { return running_ ? running_->shared_ring() : nullptr; }
   std::uint64_t missed() const noexcept { return is_connected() ? running_->servo()->missed() : 0; }
   const device::RealtimeStatus* realtime() const noexcept {
     return is_connected() ? &running_->servo()->realtime() : nullptr;
   }
 
-  /// Begins to record. A recording can only be repeated to the last bit from the first tick of a session; so the
-  /// session begins again, its force ramped down and up. After a fault it begins without a force, until feel(). Throws
-  /// std::runtime_error that names the file, or if no stylus is held.
+  /// Starts to record. A recording can be replayed to the last bit only from the first tick of a session, so the
+  /// session restarts, with the force ramped down and up. After a fault it starts without a force, until feel(). Throws
+  /// std::runtime_error naming the file, or if no stylus is connected.
   void record(const std::filesystem::path& file);
-  /// The status of the recording that ends; none if nothing was recorded.
+  /// The status of the ended recording; none if nothing was recorded.
   std::optional<RecorderStatus> stop_recording();
   std::optional<RecorderStatus> recording() const;
 
@@ -143,19 +144,19 @@ class LiveSession {
   const std::string& scan_hash() const;
 
   std::shared_ptr<const io::Volume> volume_;  // never filtered
-  PreparedScene offered_;                     // of the scene that comes, or its volume alone, or empty
+  PreparedScene offered_;                     // of the next scene, or its volume alone, or empty
   ScanFrame frame_;                           // of the volume in its series
   mutable std::string scan_hash_;             // of the volume; empty until asked for: it reads all voxels
   modes::Scene scene_;
   PreparedScene felt_;
   std::uint32_t last_epoch_ = 0;
-  Start start_ = Start::feeling;  // as a session that begins now does: what was asked for last
+  Start start_ = Start::feeling;  // the latest request, used by a session that starts now
   MakeClock make_clock_ = [](double period_s) { return std::make_unique<RealClock>(period_s); };
   std::shared_ptr<device::Stylus> stylus_;
   device::Specification specification_;
   std::optional<FaultReport> last_fault_;
-  int faults_ = 0;                           // of the session, that were kept
-  std::unique_ptr<RunningSession> running_;  // the last one; its ring is read after it has ended, too
+  int faults_ = 0;                           // faults of the session that have been reported
+  std::unique_ptr<RunningSession> running_;  // the latest one; its ring stays readable after its end
 };
 
 }  // namespace palpate::plugin

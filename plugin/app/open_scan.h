@@ -1,7 +1,7 @@
 #pragma once
 
-/// From a series to a scan with the scene that it is felt with first: the same for command line, panel and server,
-/// whether the scan comes from a folder, an archive or a server.
+/// From a series to a scan with its first scene: the same for command line, panel and server, and for scans from a
+/// folder, an archive or a server.
 
 #include <string>
 
@@ -24,7 +24,7 @@ modes::Scene scene_for(const std::string& file_or_name, const io::Volume& volume
 /// path.
 std::string describe_scan(const io::Volume& volume);
 
-/// Writes to stderr what a user should know of how the scene's structures lie on the scan.
+/// Prints warnings on stderr about the positions of the scene's structures on the scan.
 void warn_of_structures(const PreparedScene& felt);
 
 /// A progress line on stderr, with `what` before the percentage; an empty one if stderr is no terminal.

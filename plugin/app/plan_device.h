@@ -1,6 +1,6 @@
 #pragma once
 
-/// How the stylus changes a plan: what is left out because of it, why, and what that saves.
+/// The effect of the stylus on a plan: which parts are left out because of it, why, and what that saves.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace palpate::plugin {
 
-/// `device` as --device names it. Takes some milliseconds.
+/// `device` as in --device. Takes some milliseconds.
 std::vector<Saving> savings_of_device(const std::string& device, const device::Specification& specification);
 
 }  // namespace palpate::plugin

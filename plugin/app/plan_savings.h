@@ -1,7 +1,7 @@
 #pragma once
 
-/// Measures what leaving something out of a plan saves on this scan: the time of a step with it and without it, and
-/// the memory of both.
+/// Measures what leaving parts out of a plan saves on this scan: the time of a step with and without the part, and the
+/// memory of both.
 
 #include <cstddef>
 #include <memory>
@@ -17,12 +17,12 @@ namespace palpate::plugin {
 struct Saving {
   std::string what, why;     ///< as modes::LeftOut says
   std::string saves;         ///< in words
-  std::optional<double> us;  ///< of a sub-step; empty where it cannot be had
-  std::optional<double> ms;  ///< once, of computing ahead
+  std::optional<double> us;  ///< of a sub-step; empty if it cannot be measured
+  std::optional<double> ms;  ///< once, for computing ahead
   std::optional<std::size_t> bytes;
 };
 
-/// Of everything that the plan of this scene left out. Takes some tenths of a second.
+/// For every part that the plan of this scene left out. Takes some tenths of a second.
 std::vector<Saving> measure_savings(const modes::Scene& scene, const modes::Plan& plan,
                                     const std::shared_ptr<const io::Volume>& volume);
 

@@ -21,28 +21,28 @@ struct SessionRun {
   PreparedScene felt;  ///< the scene on the scan
   std::string scan_hash;
   std::string unit;                        ///< the scan's
-  ScanFrame frame;                         ///< which one of its series the scan is
+  ScanFrame frame;                         ///< the frame of its series that the scan is
   std::shared_ptr<device::Stylus> stylus;  ///< may be open; closed at the end
   std::uint64_t seed = 0;
   double seconds = 0;  ///< 0: until it is interrupted
   bool at_clock_pace = true;
-  bool live = false;  ///< a line on stderr that is written over
+  bool live = false;  ///< whether a line on stderr shows the present state
 };
 
 struct SessionRunResult {
   RecorderStatus recorder;
   device::RealtimeStatus realtime;  ///< of the servo thread, at the clock's pace
   std::uint64_t missed = 0;         ///< deadlines without a tick
-  bool interrupted = false;         ///< by SIGINT or SIGTERM: ended in good order
+  bool interrupted = false;         ///< by SIGINT or SIGTERM: ended properly
 };
 
-/// Records to the file (`<file>.partial` until the end). Throws what opening the stylus and the file throws.
+/// Records to the file (`<file>.partial` until the end). Throws errors of opening the stylus and the file.
 SessionRunResult run_session(const SessionRun& run, const std::filesystem::path& file);
 
 /// "2000 ticks in session.h5; missed ticks 3, ticks lost 0"
 std::string in_words(const SessionRunResult& result, const std::filesystem::path& file);
 
-/// Says on stderr what of a scene's limits is drawn down for the stylus.
+/// Reports on stderr which of the scene's limits are reduced for the stylus.
 void tell_drawn_down(const modes::Scene& scene, const device::Specification& stylus);
 
 /// Whether stderr is a terminal.

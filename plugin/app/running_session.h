@@ -1,6 +1,6 @@
 #pragma once
 
-/// A session that runs, put together in one place for `palpate probe`, the panel and the soak: the opened stylus, the
+/// A running session, assembled in one place for `palpate probe`, the panel and the soak test: the opened stylus, the
 /// ring of its ticks, the recording and the servo thread.
 
 #include <cstdint>
@@ -26,14 +26,14 @@ Snapshot snapshot_of(const modes::Scene& scene, const PreparedScene& felt, const
 /// The snapshot of a recorded scene, on the scan that it was recorded on, with its structures from these files. Throws
 /// std::invalid_argument if the scene is invalid, or if a structure is in none of the files.
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume, StructureFiles& files);
-/// The same of a scene without structures, or with those of this machine's.
+/// The same for a scene without structures, or with structures in this machine's files.
 Snapshot snapshot_of(const SceneRecord& record, const std::shared_ptr<const io::Volume>& volume);
 
 struct RecordedScene {
   SceneRecord record;
   KnownTo known_to;
 };
-/// A snapshot as a recording holds it, given its number (TickRecord::scene_epoch). Asked only while there is a
+/// Gives a snapshot in the form that recordings store, with its number (TickRecord::scene_epoch). Called only while
 /// recording.
 using AsRecorded = std::function<RecordedScene(std::uint32_t epoch)>;
 
@@ -51,7 +51,7 @@ class RunningSession {
     std::optional<RecordingTo> recording = {};  ///< from the first tick
     bool is_released = false;                   ///< without a force until Session::arm()
   };
-  /// Throws what Recorder does. The session ticks from start_servo() on, or when its owner calls Session::tick().
+  /// Throws as Recorder does. Ticks begin with start_servo(), or when the owner calls Session::tick().
   RunningSession(OpenStylus stylus, const Start& start);
   RunningSession(const RunningSession&) = delete;
   RunningSession& operator=(const RunningSession&) = delete;
@@ -60,10 +60,10 @@ class RunningSession {
 
   const device::Specification& specification() const noexcept { return specification_; }
   const TickRing& ring() const noexcept { return *ring_; }
-  /// The same, for who reads it longer than the session lasts.
+  /// The same for readers that outlive the session.
   std::shared_ptr<const TickRing> shared_ring() const noexcept { return ring_; }
   bool is_running() const noexcept { return session_ != nullptr; }
-  /// Only while it is running.
+  /// Only while the session is running.
   Session& session() noexcept { return *session_; }
   /// Null if nothing is recorded.
   Recorder* recorder() noexcept { return recorder_.get(); }
@@ -76,26 +76,26 @@ class RunningSession {
   /// With another clock. For tests only.
   void start_servo(std::unique_ptr<ServoClock> clock, double period_s);
 
-  /// The recording has the scene before the servo can take it, so that it has the scene of its every tick.
+  /// The recording gets the scene before the servo can use it, so it has the scene of every tick.
   std::uint32_t publish(const Snapshot& next, const AsRecorded& as_recorded);
-  /// As Session::change_stylus(); null: none. `specification`: of the one to come.
+  /// As Session::change_stylus(); null: none. `specification`: of the new stylus.
   std::uint32_t change_stylus(std::shared_ptr<device::Stylus> stylus, const device::Specification& specification);
 
-  /// The status of the recording that ends; none if nothing was recorded.
+  /// The status of the ended recording; none if nothing was recorded.
   std::optional<RecorderStatus> stop_recording();
-  /// After stop_recording(): goes on in another file with the first tick that the last one does not have.
+  /// After stop_recording(): continues in another file, with the first tick that the previous one does not have.
   void record_to(const RecordingTo& recording);
 
-  /// Stops the servo and closes the stylus. The ring can be read further.
+  /// Stops the servo and closes the stylus. The ring stays readable.
   void stop() noexcept;
   /// The same, and ends the recording.
   std::optional<RecorderStatus> end() noexcept;
 
  private:
   device::Specification specification_;
-  std::uint32_t scenes_ = 0, styluses_ = 0;  // the last numbers given
-  std::optional<std::uint64_t> next_tick_;   // that no recording has yet
-  // In the order in which they lean on each other.
+  std::uint32_t scenes_ = 0, styluses_ = 0;  // the latest numbers
+  std::optional<std::uint64_t> next_tick_;   // the first one not yet in a recording
+  // In order of dependence.
   std::shared_ptr<TickRing> ring_ = std::make_shared<TickRing>();
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<Session> session_;

@@ -22,8 +22,8 @@ inline bool is_velocity(const io::Catalogue& catalogue, std::size_t index) {
   return index >= catalogue.series.size();
 }
 
-/// What a series is called in --series, properties and state files: its UID, and "UID#2", "UID#3" for further volumes
-/// of a series whose images do not all fit together.
+/// The name of a series in --series, properties and state files: its UID, and "UID#2", "UID#3" for further volumes of a
+/// series whose images do not all fit together.
 std::string scan_name(const io::Catalogue& catalogue, std::size_t index);
 
 /// One short line for a list: modality, description, size. Names no patient.
@@ -37,7 +37,7 @@ std::string list_scans(const io::Catalogue& catalogue, bool usable_only = false)
 
 /// Index of the series with that name (scan_name()) or number, counted from 1. None if there is no such series.
 std::optional<std::size_t> find_scan(const io::Catalogue& catalogue, const std::string& name);
-/// How many volumes a series of that UID holds; a UID alone means the first of them.
+/// The number of volumes in a series of that UID; a UID alone means the first of them.
 std::size_t volumes_of(const io::Catalogue& catalogue, const std::string& uid);
 
 /// Index of the only volume. None if there is no volume, or more than one.
@@ -46,7 +46,7 @@ std::optional<std::size_t> only_scan(const io::Catalogue& catalogue);
 /// Indices of all choices. The default comes first: the series of the DICOM file `path`, else io::choose_first().
 std::vector<std::size_t> choices(const io::Catalogue& catalogue, const std::filesystem::path& path);
 
-/// What find_scan() finds, or the first of choices() if the name is empty. Throws io::DicomError that lists the
+/// The result of find_scan(), or the first of choices() if the name is empty. Throws io::DicomError that lists the
 /// choices, also if the first of them is not a volume.
 std::size_t choose_scan(const io::Catalogue& catalogue, const std::string& name, const std::filesystem::path& path);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which stylus to hold: its kind, its address if several are plugged in, and the settings that its kind needs.
+/// The choice of a stylus: its kind, its address if several are plugged in, and the settings of its kind.
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Arms that are sold and hands that hold them, as simulated devices: for `palpate-bench stability`.
+/// Commercial arms and hands that hold them, as simulated devices: for `palpate-bench stability`.
 
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@ namespace palpate::plugin {
 
 struct SimulatedArm {
   std::string name;
-  device::SimulatedDevice device;  ///< its hand is the usual one
-  std::string source;              ///< which figures are published, and which are assumed
+  device::SimulatedDevice device;  ///< with the default hand
+  std::string source;              ///< which figures are published, and which assumed
 };
 
 /// The default simulated device; 3D Systems Touch; Force Dimension omega.3; Haply Inverse3.
@@ -23,9 +23,9 @@ struct SimulatedHand {
   device::HandModel model;
 };
 
-/// A loose, a usual and a firm grip. Fingers and hands measured by others lie between: stiffness 100 to 1500 N/m,
-/// damping 2 to 8 N s/m (A. Z. Hajian and R. D. Howe, "Identification of the mechanical impedance at the human finger
-/// tip", 1997).
+/// A loose, a usual and a firm grip. Published measurements of fingers and hands lie between them: stiffness 100 to
+/// 1500 N/m, damping 2 to 8 N s/m (A. Z. Hajian and R. D. Howe, "Identification of the mechanical impedance at the
+/// human finger tip", 1997).
 std::vector<SimulatedHand> simulated_hands();
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rays from the center of a ball that a structure outlines.
+/// Rays from the center of an outlined ball.
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -10,13 +10,13 @@
 
 namespace palpate::plugin {
 
-/// Of length 1; all directions are alike. `any` is of mean 0 and deviation 1.
+/// A unit vector with a uniform distribution of directions. `any` has mean 0 and standard deviation 1.
 inline glm::dvec3 any_direction(std::mt19937& random, std::normal_distribution<double>& any) {
   const double x = any(random), y = any(random), z = any(random);
   return glm::normalize(glm::dvec3(x, y, z));
 }
 
-/// How far from the center the ray leaves the structure, mm; at most `most_mm`.
+/// The distance from the center at which the ray leaves the structure, mm; at most `most_mm`.
 inline double radius_along(const io::DistanceField& structure, const glm::dvec3& center, const glm::dvec3& way,
                            double most_mm) {
   double in = 0, out = most_mm;

@@ -6,7 +6,7 @@ class App;
 
 namespace palpate::plugin {
 
-/// `palpate-bench correct`: what an edit of an outline costs, and whether touch helps a simulated hand to correct one.
+/// `palpate-bench correct`: the time of an edit of an outline, and whether touch helps a simulated hand to correct one.
 void add_bench_correct(CLI::App& bench);
 
 }  // namespace palpate::plugin

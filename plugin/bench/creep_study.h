@@ -1,6 +1,7 @@
 #pragma once
 
-/// How a solver's errors add up over many ticks. The probe itself is moved (no device, no hand), and the proxy follows.
+/// The accumulation of a solver's errors over many ticks. The probe itself is moved (no device, no hand), and the proxy
+/// follows.
 
 #include <functional>
 #include <string>
@@ -14,12 +15,12 @@ struct CreepStudyRow {
   std::string how;   ///< in words: the phantom and the motion
   double value = 0;
   std::string unit;
-  std::string ideal;  ///< what an exact solver in exact arithmetic would give, in words
+  std::string ideal;  ///< the result of an exact solver in exact arithmetic, in words
 };
 
-/// creep: share of the force lost in `seconds` at rest with noise in a cavity of 10 mm; drift: how far a proxy leaves
-/// the surface while it slides along a flat slab; hysteresis: largest difference of force between pressing and
-/// releasing; pop-through: largest force before a wall of 1 N yields; rest chatter: peak to peak of the force while the
+/// creep: fraction of the force lost in `seconds` at rest with noise in a cavity of 10 mm. drift: distance of a proxy
+/// from the surface after sliding along a flat slab. hysteresis: largest difference of force between pressing and
+/// releasing. pop-through: largest force before a wall of 1 N yields. rest chatter: peak to peak of the force while the
 /// probe is perfectly still.
 std::vector<CreepStudyRow> study_creep(double seconds, const std::function<void(double)>& progress);
 

@@ -11,7 +11,8 @@
 
 namespace palpate::plugin {
 
-/// Lines of a table on stdout, each at once: the next one may take minutes. Kept for a CSV file.
+/// Prints the lines of a table on stdout, each at once because the next may take minutes, and keeps them for a CSV
+/// file.
 class CsvTable {
  public:
   explicit CsvTable(std::string header) : csv_(std::move(header) + "\n") {

@@ -4,8 +4,8 @@
 
 namespace palpate::plugin {
 
-/// What an edit of each kind costs on a ball of voxels of 1 mm, printed as a table; the rows as CSV. The time is the
-/// best of some rounds, and the processor's time in it: what else the machine does is in the first alone.
+/// Prints a table of the time of each type of edit on a ball of voxels of 1 mm, and returns it as CSV. The time is the
+/// best of some rounds, with the processor time of that round: only the former includes other programs' load.
 std::string tabulate_edit_costs(int rounds);
 
 }  // namespace palpate::plugin

@@ -1,7 +1,7 @@
 #pragma once
 
-/// How good the gradient of a scan is: the errors of its direction and magnitude on phantoms with known answers, and
-/// how its direction trembles on a real scan.
+/// The accuracy of a scan's gradient: the errors of its direction and magnitude on phantoms with known answers, and the
+/// jitter of its direction on a real scan.
 
 #include <filesystem>
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace palpate::plugin {
 
-/// For each kind of voxels, noise and method: errors at a ball's surface. Also gradient_errors.csv in the folder,
-/// unless that is empty.
+/// For each type of voxels, noise and method: errors at a ball's surface. Also writes gradient_errors.csv into the
+/// folder, unless its path is empty.
 void tabulate_gradient_errors(const std::filesystem::path& folder);
 
-/// How far the direction turns under a hand's tremor of 0.05 mm, where there is a boundary; direction_jitter.csv.
+/// The change of the direction under a hand's tremor of 0.05 mm, at boundaries; direction_jitter.csv.
 void tabulate_direction_jitter(const std::shared_ptr<const io::Volume>& volume, const std::filesystem::path& folder);
 
 }  // namespace palpate::plugin

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is felt along a path, and how far it is from what should be felt.
+/// The force along a path, and its error.
 
 #include <array>
 #include <cstddef>
@@ -16,23 +16,23 @@
 
 namespace palpate::plugin {
 
-/// A scene on its data, and whether it says how well its boundaries are known.
+/// A scene on its data, and whether it states the uncertainty of its boundaries.
 struct FeltScene {
   modes::Scene scene;
   PreparedScene on;
   bool has_known = false;
 };
 
-/// The scene on a scan with all of its gradients computed: no thread works ahead, and each tick costs the same. Throws
-/// io::Cancelled.
+/// The scene on a scan with all gradients computed in advance: no thread works ahead, and each tick takes the same
+/// time. Throws io::Cancelled.
 FeltScene felt_on_scan(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                        const io::Progress& progress = {});
 
 struct FeltContact {
   std::size_t boundary = 0;  ///< index in the scene's modes
-  double depth_mm = 0;       ///< of the proxy along the path, where the boundary is first met
+  double depth_mm = 0;       ///< of the proxy along the path, at the first contact
   glm::dvec3 place_mm{0};    ///< of the proxy there
-  double known_mm = 0;       ///< known_to_mm() there; NaN where it says nothing
+  double known_mm = 0;       ///< known_to_mm() there; NaN if unknown
 };
 
 struct FeltPath {
@@ -40,30 +40,30 @@ struct FeltPath {
   std::vector<glm::vec3> force_n;    ///< of each tick, patient axes
   std::vector<std::uint8_t> pusher;  ///< the scene's mode that pushes most, or nothing
   std::vector<FeltContact> contacts;
-  double seconds = 0;  ///< to feel it
+  double seconds = 0;  ///< run time
 };
 
-/// The probe moves along the path at a constant speed, one tick a millisecond. Throws Refusal if a balance is not
+/// Moves the probe along the path at a constant speed, one tick a millisecond. Throws Refusal if a balance is not
 /// solved.
 FeltPath feel_path(const FeltScene& felt, const PlannedPath& path, double speed_mm_per_s);
 
-/// N: force errors that are larger count as affected.
+/// N: larger force errors count as affected.
 inline constexpr double affected_n = 0.05;
 
-/// How often the truth lies within what is stated.
+/// How often the true boundary is within the stated uncertainty.
 struct KnownPlaces {
   std::uint64_t contacts = 0, within = 0, unstated = 0;
-  std::vector<float> ratios;  ///< of the error to what is stated, of each contact
+  std::vector<float> ratios;  ///< of the error to the stated uncertainty, of each contact
 
   double share() const { return contacts == 0 ? 0 : static_cast<double>(within) / static_cast<double>(contacts); }
 };
 
-/// Sums over paths. Added in the same order they have the same bits.
+/// Sums over paths. Adding in the same order gives the same bits.
 class ForceErrors {
  public:
   ForceErrors();
 
-  /// `off_mm`: how far a place is from the nearest true boundary; empty if nobody knows.
+  /// `off_mm`: the distance of a place from the nearest true boundary; empty if unknown.
   void add(const FeltPath& truth, const FeltPath& felt, const std::function<double(const glm::dvec3&)>& off_mm);
   void add_refused() { ++refused_; }
   void merge(const ForceErrors& other);
@@ -71,16 +71,16 @@ class ForceErrors {
   std::uint64_t samples() const noexcept { return samples_; }
   std::uint64_t refused() const noexcept { return refused_; }
   double rms_n() const;
-  double p95_n() const;  ///< 95 % of the force errors are at most this, to 0.002 N
+  double p95_n() const;  ///< 95th percentile of the force errors, to 0.002 N
   double largest_n() const noexcept { return largest_n_; }
-  double affected() const;  ///< part of the samples with more than affected_n
-  /// mm, of first contacts that both have: 0.5 is the median.
+  double affected() const;  ///< fraction of the samples with more than affected_n
+  /// Distance between the first contacts of both, mm; 0.5 is the median.
   double first_contact_mm(double quantile) const;
-  std::uint64_t missed() const noexcept { return missed_; }  ///< paths on which one alone meets a boundary first
+  std::uint64_t missed() const noexcept { return missed_; }  ///< paths on which only one meets a boundary first
   const std::array<KnownPlaces, modes::Scene::most_modes>& known() const noexcept { return known_; }
   KnownPlaces known_of_all() const;
-  /// Sum of the squares (N^2) of samples at which the truth is pushed by one mode and the other by another; the last is
-  /// nothing.
+  /// Sum of the squares (N^2) of samples in which one mode pushes in the truth and another in the row; the last index
+  /// means no mode.
   double squares_of(std::size_t truth, std::size_t felt) const { return by_pusher_[truth * pushers + felt]; }
   double squares() const noexcept { return squares_; }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rows on a scan whose organs somebody has outlined: the truth is what the outlines feel like.
+/// Rows on a scan with outlined organs: the force of the outlines is the truth.
 
 #include <cstdint>
 #include <memory>
@@ -14,25 +14,25 @@
 
 namespace palpate::plugin {
 
-/// The group whose rows are scenes.
+/// The group with scenes as rows.
 inline constexpr const char* scenes_group = "scenes of a scan";
 
 /// A mask of the whole lattice of a scan.
 io::Mask empty_mask(const io::Geometry& geometry);
 
-/// The body: what lies above -300 HU in one piece, the largest, and all that air from outside does not reach through
-/// voxels below -300 HU.
+/// The body: the largest connected piece above -300 HU, and everything that outside air does not reach through voxels
+/// below -300 HU.
 io::Mask body_in(const io::Volume& volume);
 
-/// One voxel less, or more, on each side that has a neighbor in a slice.
+/// Removes (or adds) voxels on each side that has a neighbor in a slice.
 io::Mask eroded(const io::Mask& mask, int voxels);
-/// All voxels by so many columns.
+/// Shifts all voxels by so many columns.
 io::Mask shifted(const io::Mask& mask, int columns);
-/// The edge moved by up to so many voxels, in or out, alike over patches of four voxels.
+/// Moves the edge by up to so many voxels, in or out, by the same amount over patches of four voxels.
 io::Mask ragged(const io::Mask& mask, int voxels, std::uint64_t seed);
 
-/// The automatic scene, the scan's starting scene, and labels that are wrong by a known amount. Throws InputRefused
-/// if no structure of the catalogue lies on the scan.
+/// The automatic scene, the scan's starting scene, and labels with errors of a known size. Throws InputRefused if no
+/// structure of the catalogue lies on the scan.
 std::vector<ForceGroup> label_groups(const std::shared_ptr<const io::Volume>& volume,
                                      const io::StructureCatalogue& structures, std::uint64_t seed);
 

@@ -23,22 +23,22 @@ struct PlannedPath {
 
 struct PathTarget {
   std::string name;
-  std::function<glm::dvec3(std::mt19937_64&)> place_in;  ///< any place inside, all alike
+  std::function<glm::dvec3(std::mt19937_64&)> place_in;  ///< a random place inside, uniformly distributed
   bool is_bone = false;                                  ///< then the path may pass through bone
 };
 
 struct PathWorld {
   std::vector<PathTarget> targets;
-  std::function<bool(const glm::dvec3&)> is_outside;  ///< of the body
+  std::function<bool(const glm::dvec3&)> is_outside;  ///< whether a place is outside the body
   std::function<bool(const glm::dvec3&)> is_bone;
-  std::function<bool(const glm::dvec3&)> is_known;  ///< whether the scan has this place
-  glm::dvec3 stretch{1};  ///< of directions that are alike over a sphere: a slab is entered from its sides
+  std::function<bool(const glm::dvec3&)> is_known;  ///< whether a place is in the scan
+  glm::dvec3 stretch{1};  ///< scales uniformly distributed directions: a slab is entered from its sides
   double most_mm = 200;   ///< in the body
-  double before_mm = 6;   ///< of the path, outside
+  double before_mm = 6;   ///< length of the path outside
 };
 
-/// The path of this number, which depends on the seed and the number alone. The targets take turns. Empty if no way
-/// to the target was found that keeps the rule.
+/// The path with this number, which depends only on the seed and the number. The targets take turns. Empty if no
+/// allowed path to the target was found.
 std::optional<PlannedPath> plan_path(const PathWorld& world, std::uint64_t seed, std::size_t number);
 
 }  // namespace palpate::plugin

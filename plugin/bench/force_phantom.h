@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rows whose truth is mathematics: a phantom whose boundaries are known exactly.
+/// Rows with a mathematical truth: a phantom whose boundaries are known exactly.
 
 #include <cstdint>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace palpate::plugin {
 
-/// A body of fat around muscle, and in it a liver, a lung, a bone with marrow and a vessel with contrast medium. All
-/// are balls that do not touch.
+/// A body of fat around muscle, which contains a liver, a lung, a bone with marrow and a vessel with contrast medium.
+/// All are balls that do not touch.
 testdata::Phantom make_torso();
 
-/// mm from the nearest surface of the torso.
+/// The distance from the nearest surface of the torso, mm.
 double torso_surface_mm(const glm::dvec3& place_mm);
 
 /// Scans of the torso (noise, blur, spacing, tilt), the filters of a scene, and the solvers. `seed`: of the noise.

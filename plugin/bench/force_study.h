@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rows of `palpate-bench forces`: each a scene on data, felt along the same paths as the truth of its group.
+/// Rows of `palpate-bench forces`: each is a scene on data, felt along the same paths as the truth of its group.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace palpate::plugin {
 
-/// Prepares a scene on its data. Asks now and then whether to go on, and throws io::Cancelled if not.
+/// Prepares a scene on its data. Throws io::Cancelled if its progress callback returns false.
 using MakeFelt = std::function<FeltScene(const io::Progress&)>;
 
 /// One row. To add one: append it to a group in force_phantom.cpp or force_labels.cpp.
 struct ForceRow {
   std::string name;
-  MakeFelt make;  ///< called when the row is run, so that one is in memory at a time
+  MakeFelt make;  ///< called when the row runs, so that only one row is in memory at a time
 };
 
 struct ForceGroup {
   std::string name;
-  std::string against;  ///< what the truth is, for people
+  std::string against;  ///< the truth, in words
   PathWorld world;
   MakeFelt truth;
   double speed_mm_per_s = 50;
-  /// How far a place is from the nearest true boundary, mm; empty if nobody knows.
+  /// The distance of a place from the nearest true boundary, mm; empty if unknown.
   std::function<double(const glm::dvec3&)> off_mm;
   std::vector<ForceRow> rows;
 };
@@ -46,11 +46,12 @@ struct ForceRowResult {
   std::vector<std::string> truth_boundaries;  ///< of the truth's
   std::size_t paths = 0;
   ForceErrors errors;
-  double us_a_tick = 0;  ///< of the fastest 32 paths: what else the machine did is not the row's
-  double ready_s = 0;    ///< to prepare the row: filter, fields, suggestion
+  double us_a_tick = 0;  ///< of the fastest 32 paths, to exclude the load of other programs
+  double ready_s = 0;    ///< time to prepare the row: filter, fields, suggestion
 };
 
-/// All but the times depends on the groups and the seed alone, whatever the number of threads. Throws io::Cancelled.
+/// Everything except the times depends only on the groups and the seed, for any number of threads. Throws
+/// io::Cancelled.
 std::vector<ForceRowResult> compare_forces(const std::vector<ForceGroup>& groups, const ForceOptions& options,
                                            const io::Progress& progress = {});
 

@@ -1,10 +1,11 @@
 #pragma once
 
-/// The stiffness that stays steady in the hand: simulated arms and hands in closed loop with each solver, pressing and
-/// sliding. No safety filter: its limits would hide the ringing.
+/// The highest stiffness that is steady in the hand: simulated arms and hands in closed loop with each solver, pressing
+/// and sliding. Without a safety filter, whose limits would hide the ringing.
 ///
-/// The hand means to be as deep as presses it with half of what the surface takes there, F: F (1 / k + 1 / k_h), for
-/// its own spring k_h is in series with the scene's k. So contact is kept at every stiffness; each row says how far.
+/// The hand's target is deep enough to press with half of the surface's largest force there, F: F (1 / k + 1 / k_h),
+/// because its own spring k_h is in series with the scene's k. So contact should be kept at every stiffness; each row
+/// states how much was.
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +15,7 @@
 namespace palpate::plugin {
 
 struct HandStudyOptions {
-  int hands = 3;      ///< seeded tremors
+  int hands = 3;      ///< tremors with different seeds
   double hold_s = 2;  ///< of which the last second is analyzed
   std::vector<double> stiffness_n_per_m{200, 400, 800, 1600, 2400, 3200, 4800, 6400, 9600};
 };
@@ -25,24 +26,24 @@ struct HandStudyRow {
   std::string motion;  ///< "press" or "slide"
   std::string arm;     ///< of simulated_arms()
   std::string hand;    ///< of simulated_hands()
-  std::string solver;  ///< which of the chain were switched on
+  std::string solver;  ///< the solvers of the chain that were switched on
   double stiffness_n_per_m = 0;
   double median_rms_n = 0;  ///< of the force between 30 and 500 Hz over the last second; median over the tremors
   double worst_rms_n = 0;
   double steady_below_n = 0;  ///< 2 k q, where q is the arm's position step: RMS that is steady
-  double kept = 1;            ///< share of the last second's ticks in which the surface held; the least of the tremors
+  double kept = 1;            ///< fraction of the last second's ticks in which the surface held; least over the tremors
   double proxy_error_m = 0;   ///< largest distance from the balance's exact proxy, same primitives
   std::size_t capped = 0;     ///< ticks that hit a solver's cap
 };
 
-/// The names of the solvers in the rows, in their order.
+/// The names of the solvers in the rows, in order.
 const std::vector<std::string>& hand_study_solvers();
 
 /// Contact was kept in three of four ticks, and the median RMS is below 2 k q.
 bool is_steady(const HandStudyRow& row);
 
-/// For every scene, motion, arm, hand and solver the stiffnesses in their order, up to the first that is not steady. On
-/// all cores; progress is told the share done, 0 to 1.
+/// For every scene, motion, arm, hand and solver the stiffnesses in order, up to the first unsteady one. On all cores;
+/// progress gets the fraction done, 0 to 1.
 std::vector<HandStudyRow> study_hand(const HandStudyOptions& options, const std::function<void(double)>& progress);
 
 /// RMS of a signal sampled at `rate` Hz between two frequencies, from its discrete Fourier transform (Parseval).

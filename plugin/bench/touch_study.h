@@ -1,8 +1,8 @@
 #pragma once
 
-/// Whether touch helps a simulated hand to correct an outline. The hand traces the true edge as it is seen on a screen,
-/// with tremor, drift and the error of aiming at a pixel: once with a stylus without forces, and once pressed into the
-/// scan's edge, where the proxy is what is traced. No claim about people.
+/// Whether touch helps a simulated hand to correct an outline. The hand traces the true edge on a screen, with tremor,
+/// drift and the error of aiming at a pixel: once with a stylus without forces, and once pressed into the scan's edge,
+/// where the proxy's path is the trace. No claim about people.
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Bodies whose edge is known, outlined rightly or wrongly, and their scans: what a simulated hand traces.
+/// Bodies with known edges, outlined correctly or wrongly, and their scans, to be traced by a simulated hand.
 
 #include <functional>
 #include <glm/vec3.hpp>
@@ -14,7 +14,7 @@ namespace palpate::plugin {
 
 using OutlineMm = std::function<double(const glm::dvec3&)>;  ///< signed distance, mm, positive inside
 
-/// The outline of a body, as a label map on a lattice has it.
+/// The outline of a body as a label map on a lattice represents it.
 std::shared_ptr<const io::DistanceField> outline_of(const io::Geometry& lattice, const OutlineMm& mm, double reach_mm);
 
 /// A scan with the blur (0.6 mm) and noise (12 HU) of a soft kernel.

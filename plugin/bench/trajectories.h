@@ -20,17 +20,17 @@ struct MeasuredSample {
   glm::dvec3 force_n{0};      ///< of the object on the tip
 };
 
-/// What is read where nothing else is said.
+/// The default columns.
 inline constexpr const char* usual_columns = "t,x,y,z,fx,fy,fz";
 
-/// Numbers stand between blanks, tabs, commas or semicolons. Lines that begin with # or % are comments; empty lines do
-/// not count. `columns`: a name each, in the file's order; "-" leaves one out. Throws InputRefused that names the file
+/// Numbers are separated by blanks, tabs, commas or semicolons. Lines that begin with # or % are comments; empty lines
+/// are ignored. `columns`: a name for each column, in order; "-" ignores it. Throws InputRefused that names the file
 /// and the line, or WrongUsage for the columns.
 std::vector<MeasuredSample> read_trajectory(const std::filesystem::path& file, const std::string& columns);
 
-/// The measured force against the felt one. The hand's probe lies in the object by force / stiffness, as the
-/// repository's own in-trajectories do, so that a perfect rendering gives the measured force. One tick a sample; the
-/// scene's stiffness is `stiffness_n_per_mm`. Throws Refusal if a balance is not solved.
+/// Compares the measured force with the felt one. The probe is inside the object by force / stiffness, as in the
+/// repository's own in-trajectories, so a perfect rendering gives the measured force. One tick a sample; the scene's
+/// stiffness is `stiffness_n_per_mm`. Throws Refusal if a balance is not solved.
 ForceErrors compare_with_measured(std::span<const MeasuredSample> samples, const FeltScene& felt,
                                   double stiffness_n_per_mm);
 
