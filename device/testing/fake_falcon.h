@@ -1,7 +1,7 @@
 #pragma once
 
-/// A Falcon as its protocol shows it: serial chip, boot loader, firmware, three arms and a hand on the grip. Written
-/// once and mounted wherever bytes can be carried; time comes from the mount.
+/// A Falcon as seen through its protocol: serial chip, boot loader, firmware, three arms and a hand on the grip. It is
+/// independent of the transport that mounts it, which also gives the time.
 
 #include <array>
 #include <cstdint>
@@ -18,45 +18,45 @@ namespace palpate::device {
 struct FakeFalconOptions {
   bool firmware_loaded = true;
   bool homed = false;
-  std::vector<std::uint8_t> image;   ///< the only firmware that runs
-  bool greeting_after_zero = false;  ///< a 00 in front of the greeting, as some stacks see it
+  std::vector<std::uint8_t> image;   ///< the only accepted firmware
+  bool greeting_after_zero = false;  ///< a 00 before the greeting, as some USB stacks report it
   double motor_gain = 10000;
   double friction = 0.06;      ///< N, of the arms
   std::vector<Waypoint> path;  ///< of the hand, m in the device's frame; empty: out, in and then at rest
 };
 
-/// What goes wrong; may be changed while it runs.
+/// Faults; may be changed while it runs.
 struct FakeFalconFaults {
-  bool silent = false;            ///< nothing is answered
-  double reply_delay = 0;         ///< s on top of a reply's usual way
+  bool silent = false;            ///< gives no answers
+  double reply_delay = 0;         ///< s in addition to a reply's normal delay
   std::size_t most_payload = 62;  ///< bytes in one USB packet: below 16 every reply is split
-  int garble_every = 0;           ///< each n-th reply has a byte broken
-  int drop_every = 0;             ///< each n-th reply is lost
+  int garble_every = 0;           ///< every n-th reply has a damaged byte
+  int drop_every = 0;             ///< every n-th reply is lost
   bool impossible_pose = false;   ///< encoders that no Falcon can have
-  bool home_lost = false;         ///< as if it had been switched off and on
-  int corrupt_echoes = 0;         ///< this many of the upload's echoes have a bit wrong
+  bool home_lost = false;         ///< as after switching it off and on
+  int corrupt_echoes = 0;         ///< this many of the upload's echoes have a wrong bit
 };
 
 class FakeFalcon {
  public:
   explicit FakeFalcon(const FakeFalconOptions& options = {});
 
-  // The USB side. Vendor request; bulk OUT 0x02; bulk IN 0x81: one packet that would complete now, status bytes first.
+  // The USB side. Vendor request; bulk OUT 0x02; bulk IN 0x81: the packet that would complete now, status bytes first.
   void control(std::uint8_t request, std::uint16_t value, double now);
   void write(std::span<const std::uint8_t> bytes, double now);
   std::optional<std::size_t> read(std::span<std::uint8_t> packet, double now);
 
-  /// Unplugged: its serial chip, which lives on the bus's power, forgets how it was set. The arms have their own power.
+  /// Unplugged: its serial chip, which is powered by the bus, loses its settings. The arms have their own power.
   void lose_usb();
 
   FakeFalconFaults faults;
 
-  // What the arms feel. A real Falcon's own watchdog is not known: this one holds its last command for ever.
+  // The state of the arms. Whether a real Falcon has a watchdog is unknown: this one holds its last command for ever.
   const std::array<int, 3>& motors() const noexcept { return motors_; }
   const Vec3& force() const noexcept { return force_; }                ///< N on the grip
-  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the longest force there was
+  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the largest so far
   bool is_pushing() const noexcept { return motors_ != std::array<int, 3>{}; }
-  double pushed_until() const noexcept { return pushed_until_; }  ///< s: the last command that was not zero
+  double pushed_until() const noexcept { return pushed_until_; }  ///< s: time of the last non-zero command
   const FakeHand& hand() const noexcept { return hand_; }
   FakeHand& hand() noexcept { return hand_; }
   bool firmware_runs() const noexcept { return firmware_loaded_ && baud_ == 2; }

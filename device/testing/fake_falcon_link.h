@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fake Falcon in the same process, on a clock that runs only while somebody waits.
+/// The fake Falcon in the same process, on a clock that advances only during waits.
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 
 namespace palpate::device {
 
-/// The fake and its clock outlive the link, so that a test can look at them after the driver has gone.
+/// The fake and its clock outlive the link, so a test can examine them after the driver has gone.
 struct FakeFalconBench {
   explicit FakeFalconBench(const FakeFalconOptions& options = {}) : falcon(options) {}
   FakeFalcon falcon;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The simulated hand on a fake device: the same arithmetic as the simulated stylus, stepped by whatever clock the
-/// fake is mounted on.
+/// The simulated hand on a fake device, computed as for the simulated stylus and stepped by the clock of the fake's
+/// mount.
 
 #include <span>
 #include <vector>
@@ -15,9 +15,9 @@ class FakeHand {
  public:
   FakeHand(const ArmModel& arm, const HandModel& hand, std::span<const Waypoint> path);
 
-  /// Moves on to `now` (s since the first call) under a constant force (N).
+  /// Advances to `now` (s since the first call) under a constant force (N).
   void advance(double now, const Vec3& force) noexcept;
-  /// The hand goes on with this velocity (m/s) from where it is.
+  /// Sets the hand's velocity (m/s) at its present position.
   void fling(const Vec3& velocity) noexcept {
     body_.velocity = flung_ = velocity;
     flung_from_ = body_.position;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the fake HID devices have in common, and their mount in the same process.
+/// Shared by the fake HID devices, with their mount in the same process.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace palpate::device {
 
-/// What a host learns of a device when it is plugged in.
+/// The data of a device that the host gets when it is plugged in.
 struct HidIdentity {
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;
@@ -30,20 +30,20 @@ class FakeHid {
   virtual ~FakeHid() = default;
 
   virtual HidIdentity identity() const = 0;
-  /// The input report that is there by now, its number first where it has one.
+  /// The input report available now, with its number first if it has one.
   virtual std::optional<std::size_t> read(std::span<std::uint8_t> report, double now) = 0;
-  /// An output report, without the number.
+  /// Takes an output report, without its number.
   virtual void write(std::span<const std::uint8_t> report, double now) = 0;
   virtual bool is_pushing(double now) const = 0;
 };
 
-/// The clock outlives the link, so that a test can look at the device after the driver has gone.
+/// The clock outlives the link, so a test can examine the device after the driver has gone.
 struct FakeHidBench {
   double time = 0;
   bool unplugged = false;
 };
 
-/// On a clock that runs only while somebody waits.
+/// On a clock that advances only during waits.
 class FakeHidLink final : public Link {
  public:
   FakeHidLink(FakeHid& device, FakeHidBench& bench) : device_(device), bench_(bench) {}

@@ -1,7 +1,7 @@
 #pragma once
 
-/// HID devices of the test's own in place of hidapi's, after hidapi's documentation. Where there is no FakeHidApi,
-/// hidapi itself is called.
+/// Replaces hidapi by fake HID devices that follow hidapi's documentation. While no FakeHidApi exists, hidapi itself is
+/// called.
 
 #include <cstdint>
 #include <deque>
@@ -18,17 +18,17 @@ struct FakeHidNode {
   std::string path;
   std::wstring name;
   bool opens = true;
-  FakeHid* device = nullptr;  ///< what is mounted, by the clock
+  FakeHid* device = nullptr;  ///< the mounted device, by the clock
 };
 
-/// What a read brings: bytes, or an error and what errno is then.
+/// The result of a read: bytes, or an error with its errno.
 struct FakeHidInput {
-  static constexpr int without_errno = -1;  ///< it stays as it was
+  static constexpr int without_errno = -1;  ///< errno is unchanged
   std::vector<std::uint8_t> bytes;
   int failed = 0;
 };
 
-/// One at a time.
+/// Only one may exist at a time.
 class FakeHidApi {
  public:
   FakeHidApi();
@@ -38,16 +38,16 @@ class FakeHidApi {
 
   std::vector<FakeHidNode> nodes;
   bool starts = true;
-  std::deque<FakeHidInput> input;  ///< read next; empty: nothing comes
-  bool takes = true;               ///< reports are written
-  std::function<void()> on_write;  ///< after a report was written, in the thread that wrote it
+  std::deque<FakeHidInput> input;  ///< results of the next reads; empty: no data
+  bool takes = true;               ///< whether reports can be written
+  std::function<void()> on_write;  ///< called after a report was written, in the writing thread
 
-  // What was asked.
-  std::string opened;  ///< the last path
+  // The calls so far.
+  std::string opened;  ///< the latest path
   std::vector<int> waits_ms;
-  std::vector<std::vector<std::uint8_t>> written;  ///< with the report's number
+  std::vector<std::vector<std::uint8_t>> written;  ///< with their numbers
 
-  // What is held.
+  // Open resources.
   int lists = 0, handles = 0;
 };
 

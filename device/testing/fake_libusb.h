@@ -1,7 +1,7 @@
 #pragma once
 
-/// A USB bus of the test's own in place of libusb's, after libusb's documentation: a transfer ends where events are
-/// handled, and its callback is called there. Where there is no FakeUsb, libusb itself is called.
+/// Replaces libusb by a fake USB bus that follows libusb's documentation: transfers end while events are handled, and
+/// their callbacks are called there. While no FakeUsb exists, libusb itself is called.
 
 #include <cstdint>
 #include <deque>
@@ -15,11 +15,11 @@ class FakeFalcon;
 struct FakeUsbDevice {
   std::uint16_t vendor = 0x0403, product = 0xcb48;  ///< a Falcon's
   std::uint8_t bus = 1, number = 2;
-  std::vector<std::uint8_t> ports{3};                         ///< from the bus on
+  std::vector<std::uint8_t> ports{3};                         ///< ports from the bus on
   int open_fails = 0, claim_fails = 0, descriptor_fails = 0;  ///< libusb's error
 };
 
-/// How a transfer from the device ends: libusb's status, and the bytes that came.
+/// The result of a transfer from the device: libusb's status, and the received bytes.
 struct FakeUsbInput {
   std::vector<std::uint8_t> bytes;
   int status = 0;
@@ -31,7 +31,7 @@ struct FakeUsbRequest {
   bool operator==(const FakeUsbRequest&) const = default;
 };
 
-/// One at a time.
+/// Only one may exist at a time.
 class FakeUsb {
  public:
   FakeUsb();
@@ -43,25 +43,25 @@ class FakeUsb {
   int init_fails = 0;              ///< libusb's error
   int list_fails = 0;              ///< the same
   int submit_fails = 0;            ///< the same
-  int control_result = 0;          ///< of each request
-  std::deque<FakeUsbInput> input;  ///< what is received next
-  std::deque<int> output;          ///< the status by which the next transfers to the device end; empty: completed
-  bool takes = true;               ///< what is sent leaves
-  int slow_cancels = 0;            ///< times that events are handled before what was cancelled ends
-  FakeFalcon* falcon = nullptr;    ///< what is mounted, by the clock
-  std::function<void()> on_write;  ///< after something was sent, in the thread that handles events
+  int control_result = 0;          ///< of each control request
+  std::deque<FakeUsbInput> input;  ///< results of the next transfers from the device
+  std::deque<int> output;          ///< status of the next transfers to the device; empty: completed
+  bool takes = true;               ///< whether data can be sent
+  int slow_cancels = 0;            ///< how often events are handled before a cancelled transfer ends
+  FakeFalcon* falcon = nullptr;    ///< the mounted device, by the clock
+  std::function<void()> on_write;  ///< called after data was sent, in the thread that handles events
 
-  // What was asked.
+  // The calls so far.
   std::vector<std::vector<std::uint8_t>> written;
   std::vector<unsigned> timeouts_ms;  ///< of each transfer to the device
   std::vector<FakeUsbRequest> requests;
   std::vector<double> waits;  ///< s, for events
   int most_read = 0;          ///< bytes, of a transfer from the device
-  int opened = -1;            ///< the last device that was opened
-  bool detaches = false;      ///< the kernel's driver is let go
-  int misuses = 0;            ///< calls without a context, and transfers freed that have not ended
+  int opened = -1;            ///< the latest opened device
+  bool detaches = false;      ///< whether the kernel's driver was detached
+  int misuses = 0;            ///< calls without a context, and unfinished transfers that were freed
 
-  // What is held.
+  // Open resources.
   int contexts = 0, lists = 0, handles = 0, transfers = 0, claims = 0;
   bool holds_nothing() const { return contexts + lists + handles + transfers + claims == 0; }
 };

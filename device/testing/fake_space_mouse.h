@@ -1,6 +1,7 @@
 #pragma once
 
-/// A SpaceMouse as its reports show it: motion every 8 ms while it is deflected, one of zeros at the end, then silence.
+/// A SpaceMouse as seen through its reports: motion every 8 ms while it is deflected, one report of zeros at the end,
+/// then silence.
 
 #include <cstdint>
 
@@ -11,7 +12,7 @@ namespace palpate::device {
 
 class FakeSpaceMouse final : public FakeHid {
  public:
-  /// `together`: translation and rotation in one report, as newer pucks have it.
+  /// `together`: translation and rotation are in one report, as in newer pucks.
   explicit FakeSpaceMouse(bool together) : together_(together) {}
 
   /// Raw counts along the puck's own axes (x right, y towards the user, z down), about -350 to 350.
@@ -23,7 +24,7 @@ class FakeSpaceMouse final : public FakeHid {
   void write(std::span<const std::uint8_t> /*report*/, double /*now*/) override {}
   bool is_pushing(double /*now*/) const override { return false; }
 
-  bool loses_zero = false;  ///< the report that says that it was let go never arrives
+  bool loses_zero = false;  ///< the report of its release never arrives
 
   std::uint64_t reports() const noexcept { return report_count_; }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fake devices as a host controller sees them: descriptors, control requests, endpoints.
+/// The fake devices as seen by a host controller: descriptors, control requests, endpoints.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace palpate::device {
 
-/// The eight bytes in front of a control transfer.
+/// The eight bytes before a control transfer.
 struct UsbSetup {
   std::uint8_t type = 0;  ///< bmRequestType
   std::uint8_t request = 0;
@@ -34,20 +34,20 @@ class FakeUsb {
   virtual ~FakeUsb() = default;
 
   virtual UsbBytes device_descriptor() const = 0;
-  /// With the descriptors of the interface and of its endpoints behind it.
+  /// Includes the descriptors of the interface and of its endpoints.
   virtual UsbBytes configuration_descriptor() const = 0;
   virtual std::string name() const = 0;
-  /// A request that is no standard one of the device. Nothing: the endpoint stalls.
+  /// A request that is not a standard one. Nothing: the endpoint stalls.
   virtual std::optional<UsbBytes> control(const UsbSetup& setup, std::span<const std::uint8_t> data, double now) = 0;
   virtual void write(std::span<const std::uint8_t> packet, double now) = 0;
-  /// The IN packet that is there by now: its size.
+  /// The IN packet available now: its size.
   virtual std::optional<std::size_t> read(std::span<std::uint8_t> packet, double now) = 0;
 };
 
 /// The device of a play; the play outlives it.
 std::unique_ptr<FakeUsb> make_fake_usb(Play& play);
 
-/// Answers what every device has to answer, and hands the rest to this one.
+/// Answers the requests that are common to all devices, and passes the others to `device`.
 std::optional<UsbBytes> answer_control(FakeUsb& device, const UsbSetup& setup, std::span<const std::uint8_t> data,
                                        double now);
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A WoodenHaptics arm as its reports show it, with a hand on it: lock-step, calibration button, watchdog of 0.5 s.
+/// A WoodenHaptics arm as seen through its reports, with a hand on it: lock-step, calibration button, watchdog of 0.5
+/// s.
 
 #include <array>
 #include <cstdint>
@@ -13,25 +14,25 @@
 
 namespace palpate::device {
 
-/// Settings for the arm of such reports, whose user takes this pose (m, device's frame) for the home pose.
+/// Settings for an arm with such reports whose home pose is at this position (m, device's frame).
 WoodenHapticsSettings arm_with_home_at(const Vec3& position, std::size_t report_size = 14);
 
 struct FakeWoodenHapticsOptions {
   WoodenHapticsSettings arm = arm_with_home_at(Vec3(0));
   std::size_t report_size = 14;  ///< 14, 64 (Teensy) or 8 (firmware of 2016, without a button)
   double friction = 0.06;        ///< N, of the arm
-  double button_time = 0.2;      ///< s: when the user has the arm in its home pose and presses the button
+  double button_time = 0.2;      ///< s: time at which the user holds the arm in its home pose and presses the button
   std::vector<Waypoint> path;    ///< of the hand, m in the device's frame; empty: at rest at the origin, the home pose
 };
 
 struct FakeWoodenHapticsFaults {
   bool silent = false;
-  double report_delay = 0;  ///< s that a report is on its way
-  int short_every = 0;      ///< each n-th report is cut to 5 bytes
-  int drop_every = 0;       ///< each n-th report is lost on the way
-  int garble_every = 0;     ///< each n-th report has its bytes turned over
+  double report_delay = 0;  ///< s of delay of a report
+  int short_every = 0;      ///< every n-th report is cut to 5 bytes
+  int drop_every = 0;       ///< every n-th report is lost
+  int garble_every = 0;     ///< every n-th report has its bytes inverted
   bool impossible_pose = false;
-  bool button_pressed = false;  ///< the calibration button, held down from now on
+  bool button_pressed = false;  ///< the calibration button, held down
   int fourth_encoder = 0;       ///< counts; a button on the stylus adds 10000
 };
 
@@ -48,13 +49,13 @@ class FakeWoodenHaptics final : public FakeHid {
 
   const std::array<int, 3>& milliamperes() const noexcept { return milliamperes_; }
   const Vec3& force() const noexcept { return force_; }                ///< N on the stylus
-  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the longest force there was
-  double pushed_until() const noexcept { return pushed_until_; }       ///< s: the last report with a current in it
+  const Vec3& strongest_force() const noexcept { return strongest_; }  ///< N: the largest so far
+  double pushed_until() const noexcept { return pushed_until_; }       ///< s: time of the last report with a current
   const FakeHand& hand() const noexcept { return hand_; }
   FakeHand& hand() noexcept { return hand_; }
   std::uint64_t reports() const noexcept { return reports_; }
   std::uint64_t outputs() const noexcept { return outputs_; }
-  std::uint64_t odd_outputs() const noexcept { return odd_outputs_; }  ///< of another size than its reports have
+  std::uint64_t odd_outputs() const noexcept { return odd_outputs_; }  ///< reports of a wrong size
 
  private:
   std::array<int, 3> true_counts() const;

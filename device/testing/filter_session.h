@@ -1,6 +1,6 @@
 #pragma once
 
-/// The safety filter tick by tick, with nothing in the way but what a test sets.
+/// The safety filter tick by tick, with only the conditions that a test sets.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace palpate::device {
 
 inline constexpr double tick = 1e-3;  ///< s
 
-/// Nothing limits: what comes in goes out, as soon as the filter is armed.
+/// No limits: the output is the input as soon as the filter is armed.
 inline SafetyLimits without_limits() {
   return {.force = 1e9,
           .device_force = 1e9,
@@ -29,7 +29,7 @@ inline SafetyLimits without_limits() {
           .heartbeat_time = 1e9};
 }
 
-/// A filter, and what comes in at each tick.
+/// A filter, and its input at each tick.
 struct FilterSession {
   SafetyLimits limits = without_limits();
   SafetyState state;
@@ -56,7 +56,7 @@ struct FilterSession {
     session.step();
     return session;
   }
-  /// Armed, and pushing with all of the force asked for.
+  /// Arms the filter and ramps up until the whole force is applied.
   void push(const Vec3& force) {
     input.force = force;
     step();
@@ -66,7 +66,7 @@ struct FilterSession {
   }
 };
 
-/// N: in any direction, of a length between these.
+/// A random direction, with a length between these, N.
 inline Vec3 any_force(std::mt19937& random, double least, double most) {
   std::normal_distribution<double> normal;
   const double x = normal(random), y = normal(random), z = normal(random);

@@ -12,7 +12,7 @@ namespace palpate::device {
 
 class HaplyServer {
  public:
-  /// Listens on a port of the loopback that is free, and serves in a thread of its own.
+  /// Listens on a free loopback port, and serves in a thread of its own.
   explicit HaplyServer(const FakeHaply& service = {});
   HaplyServer(const HaplyServer&) = delete;
   HaplyServer& operator=(const HaplyServer&) = delete;
@@ -20,22 +20,22 @@ class HaplyServer {
   ~HaplyServer();
 
   int port() const noexcept;
-  /// Of its events.
+  /// The port for events.
   int events_port() const noexcept;
-  /// Sends an event to each who hears them.
+  /// Sends an event to every listener.
   void tell(const std::string& event);
-  /// Runs with the service while it serves nobody.
+  /// Runs a function on the service while it serves no request.
   void with(const std::function<void(FakeHaply&)>& run);
-  /// N, that acts now.
+  /// The force that acts now, N.
   Vec3 acting();
 
-  /// Closes each connection without a word, as a service does that is killed.
+  /// Closes every connection without a closing message, like a killed service.
   void drop();
-  /// Each message from now on ends in the middle of its frame.
+  /// From now on each message ends in the middle of its frame.
   void cut_frames(bool on);
-  /// Nothing is read or written any more, and no connection is closed.
+  /// Stops reading and writing, without closing connections.
   void stall(bool on);
-  int sessions() const noexcept;  ///< there have been
+  int sessions() const noexcept;  ///< number so far
 
  private:
   class Impl;

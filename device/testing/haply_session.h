@@ -1,6 +1,6 @@
 #pragma once
 
-/// The Haply's protocol message by message, with answers of the test's.
+/// The Haply's protocol message by message, with answers set by the test.
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace palpate::device {
 
-/// A session whose answers are the test's.
+/// A session with answers set by the test.
 struct HaplySession {
   FakeHaply service;
   FakeHaplyLink link{service};
@@ -39,7 +39,7 @@ inline nlohmann::json vector_json(const Vec3& v) {
   return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
 }
 
-/// The service's state, with its arm there and this force acting.
+/// The service's state for its arm at this place with this acting force.
 inline nlohmann::json arm_at(const Vec3& place, const Vec3& acting = Vec3(0)) {
   const nlohmann::json arm{
       {"device_id", "049D"},
@@ -48,7 +48,7 @@ inline nlohmann::json arm_at(const Vec3& place, const Vec3& acting = Vec3(0)) {
   return {{"inverse3", nlohmann::json::array({arm})}};
 }
 
-/// What a refusal says; nothing if there is none.
+/// The message of a refusal; empty if there is none.
 inline std::string refused(const std::function<void()>& run) {
   try {
     run();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A LinkStylus whose device and time are the test's.
+/// A LinkStylus whose device and time are set by the test.
 
 #include <atomic>
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace palpate::device {
 
-/// A device that answers at once and can be told to go; it outlives its driver.
+/// A device that answers at once and can be made to disappear; it outlives its driver.
 struct LinkBench {
   std::atomic<double> time{0};
   std::atomic<bool> lost{false};
   std::atomic<int> takes{0};
   std::atomic<bool> speaks{true};  ///< sends poses
-  std::uint64_t first_news = 0;    ///< poses that have come when it is connected
+  std::uint64_t first_news = 0;    ///< poses received by the time it is connected
   State state = State::idle;
-  LinkFault fault = LinkFault::none;  ///< that the device tells
+  LinkFault fault = LinkFault::none;  ///< reported by the device
   bool doubtful = false;
   ForceAnswer answer = ForceAnswer::taken;
   Vec3 position{0};
-  Vec3 force{0};             ///< N: that lies on the device
-  std::vector<Vec3> forces;  ///< all that were given
+  Vec3 force{0};             ///< N: on the device
+  std::vector<Vec3> forces;  ///< all so far
   int flushes = 0;
   int open = 0;
 };
@@ -65,7 +65,7 @@ class LinkBenchDriver final : public Driver {
   ProtocolStatus status_;
 };
 
-inline double asleep_s = 0;  ///< that the machine has slept
+inline double asleep_s = 0;  ///< time that the machine has slept
 inline double asleep() noexcept {
   return asleep_s;
 }
@@ -77,7 +77,7 @@ inline Specification pushing() {
   return specification;
 }
 
-/// Another program that counts as a guardian: the test proves for it.
+/// Makes another program count as a guardian: the test sends its proof.
 inline std::unique_ptr<Guardian> proved(std::unique_ptr<Guardian> guardian) {
   auto& shared = const_cast<GuardianBeat&>(guardian->shared());
   shared.reach = GuardianReach::at_any_time;
@@ -85,7 +85,7 @@ inline std::unique_ptr<Guardian> proved(std::unique_ptr<Guardian> guardian) {
   return guardian;
 }
 
-/// Exchanges are the test's own.
+/// The test makes the exchanges itself.
 inline std::unique_ptr<LinkStylus> unthreaded(LinkBench& bench, LinkStylusOptions options = {}) {
   options.threaded = false;
   options.asleep = &asleep;
@@ -94,7 +94,7 @@ inline std::unique_ptr<LinkStylus> unthreaded(LinkBench& bench, LinkStylusOption
   return stylus;
 }
 
-/// Asks for a force upwards, anew in each exchange of a millisecond.
+/// Requests an upward force in each exchange of a millisecond.
 inline void push(LinkBench& bench, LinkStylus& stylus, double newtons, double seconds) {
   const double end = bench.time + seconds;
   while (bench.time < end) {

@@ -9,7 +9,7 @@ namespace palpate::device {
 
 using Packet = std::span<const std::uint8_t>;
 
-/// A Falcon's serial chip to which something happens while it is sent to.
+/// A Falcon's serial chip with an event that happens during a write.
 class MishapLink final : public FalconLink {
  public:
   MishapLink(FakeFalconBench& bench, std::function<bool(Packet)> takes)

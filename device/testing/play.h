@@ -1,7 +1,7 @@
 #pragma once
 
-/// One scenario played to an unmodified client, a process of its own that uses the real libusb and hidapi. The mount
-/// carries bytes between the two; what the device is and what has to hold at the end is the same behind every mount.
+/// Plays one scenario to an unmodified client, a process of its own with the real libusb and hidapi. The mount carries
+/// bytes between the two; the device and the conditions at the end are the same for every mount.
 
 #include <functional>
 #include <memory>
@@ -16,44 +16,44 @@ namespace palpate::device {
 
 struct Scenario {
   std::string kind;  ///< falcon, wooden_haptics or space_mouse
-  /// run, unplug, sigint, sigterm, sigkill, sigstop, or denied: a user who may not open it. replug: unplugged while it
-  /// pushes, and plugged in again after a second, with the session that holds it still there; replug_close: with the
-  /// session gone.
+  /// run, unplug, sigint, sigterm, sigkill, sigstop, or denied: a user without permission to open it. replug: unplugged
+  /// while it pushes, and plugged in again after a second while the session still holds it; replug_close: the same
+  /// after the session has closed it.
   std::string name;
-  std::string address;        ///< of a WoodenHaptics arm: the hidraw path that it will have
-  bool newer_puck = false;    ///< a SpaceMouse that has translation and rotation in one report
+  std::string address;        ///< of a WoodenHaptics arm: its future hidraw path
+  bool newer_puck = false;    ///< a SpaceMouse with translation and rotation in one report
   int user = -1;              ///< the client's user and group; -1: as this process
-  bool in_plugdev = false;    ///< and its one other group
-  double zero_within = 0.4;   ///< s after the client is gone; below the 0.5 s in which an arm helps itself
+  bool in_plugdev = false;    ///< whether plugdev is its other group
+  double zero_within = 0.4;   ///< s after the client has ended; below the 0.5 s of an arm's own watchdog
   double unplug_after = 2.0;  ///< s after the client first touches it
-  double replug_after = 1.0;  ///< s after that; in the scenarios of that name
-  std::function<bool()> is_plugged_in = [] { return true; };  ///< whether the system has a node of it
+  double replug_after = 1.0;  ///< s after that; for the replug scenarios
+  std::function<bool()> is_plugged_in = [] { return true; };  ///< whether the system has a node for it
 };
 
-/// The group that the udev rules let in; the client's second one, where it has a user of its own.
+/// The group that the udev rules give access; the second group of a client with a user of its own.
 constexpr unsigned plugdev_group = 46;
 
-/// The fake of a scenario's device, for a mount to play.
+/// The fake of a scenario's device, for a mount.
 class Play {
  public:
-  /// Throws std::invalid_argument for a kind that there is no fake of.
+  /// Throws std::invalid_argument for a kind without a fake.
   explicit Play(const Scenario& scenario);
   Play(const Play&) = delete;
   Play& operator=(const Play&) = delete;
 
-  // For the mount, which holds the lock while it plays. One of the two is there; times are of CLOCK_MONOTONIC, s.
+  // For the mount, which holds the lock while it plays. One of the two devices exists; times are of CLOCK_MONOTONIC, s.
   std::mutex mutex;
   std::unique_ptr<FakeFalcon> falcon;
   std::unique_ptr<FakeHid> hid;
   bool is_replugged() const { return scenario_.name.starts_with("replug"); }
-  /// What the device forgets when it is unplugged.
+  /// Loses the state that an unplugged device loses.
   void lose_usb() noexcept;
-  /// Of anything that the client does to the device; unplugged counts from the first time.
+  /// To be called at any access of the client to the device; the time to unplugging counts from the first one.
   void touch(double now) noexcept;
   bool unplugged(double now) const noexcept;
 
-  /// Runs the client to its end and prints what became of it and of the device. 0 if both did what the scenario says
-  /// and the last force that the fake saw is zero.
+  /// Runs the client to its end and prints the results of client and device. Returns 0 if both are as the scenario
+  /// requires and the last force at the fake is zero.
   int run(const std::string& client);
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The Falcon's arms as libnifalcon (BSD) computes them, written apart from the driver's: so that a wrong sign or scale
-/// of the driver shows on the fake.
+/// The Falcon's kinematics as in libnifalcon (BSD), written independently of the driver's, so that a wrong sign or
+/// scale in the driver shows on the fake.
 
 #include <array>
 #include <cstdint>
@@ -12,9 +12,11 @@
 
 namespace palpate::device {
 
-/// Encoder counts, not rounded, of a grip (m, the Falcon's frame: z out of the body). Nothing out of reach.
+/// Encoder counts, not rounded, of a grip position (m, the Falcon's frame: z out of the body). Nothing if it is out of
+/// reach.
 std::optional<std::array<double, 3>> public_falcon_counts(const Vec3& position);
-/// N on the grip for motor commands at a position; by differences of the above, since libnifalcon's Jacobian is wrong.
+/// N on the grip for motor commands at a position; by finite differences of the above, since libnifalcon's Jacobian is
+/// wrong.
 Vec3 public_falcon_force(const Vec3& position, const std::array<int, 3>& motors, double gain);
 
 /// Sixteen bytes between '<' and '>': three numbers, lowest four bits first, then flags.

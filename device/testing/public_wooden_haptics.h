@@ -1,8 +1,8 @@
 #pragma once
 
-/// A WoodenHaptics arm as its makers' hosts compute it, written apart from the driver's: CWoodenDevice.cpp of
-/// woody-experimental (with firmware of 2016, reports of 8 bytes) and kinematics.cpp of haptikfabrikenapi (with its
-/// configuration woodenhaptics_v2015). So that a wrong sign or scale of the driver shows on the fake.
+/// A WoodenHaptics arm as in its makers' host programs, written independently of the driver's, so that a wrong sign or
+/// scale in the driver shows on the fake: CWoodenDevice.cpp of woody-experimental (with firmware of 2016, reports of 8
+/// bytes) and kinematics.cpp of haptikfabrikenapi (with its configuration woodenhaptics_v2015).
 
 #include <array>
 
@@ -14,11 +14,11 @@ enum class PublicHost { woody_2016, haptikfabriken };
 
 /// m, in the device's frame (x right, y up, z towards the user).
 Vec3 public_wooden_position(PublicHost host, const Vec3& counts);
-/// A, of the three motors for a force (N, device's frame).
+/// Currents of the three motors (A) for a force (N, device's frame).
 Vec3 public_wooden_amperes(PublicHost host, const Vec3& counts, const Vec3& force);
-/// The counts, not rounded, that a position has: the inverse of public_wooden_position(), on the arm's own branch.
+/// The counts, not rounded, of a position: the inverse of public_wooden_position(), on the arm's own branch.
 Vec3 public_wooden_counts(PublicHost host, const Vec3& position);
-/// N in the device's frame for motor currents.
+/// Force (N, device's frame) for motor currents.
 Vec3 public_wooden_force(PublicHost host, const Vec3& counts, const Vec3& amperes);
 
 }  // namespace palpate::device

@@ -9,7 +9,7 @@
 
 namespace palpate::device {
 
-/// The device of a fake library, as it lies in a file.
+/// The state of a fake library's device, as stored in a file.
 template <typename State>
 class SharedDevice {
  public:

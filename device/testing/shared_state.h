@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where the device behind a fake library lives: in a file that several processes map, or in this process alone. A
-/// device is there for every process that loads its library.
+/// The memory of a fake library's device: a file that several processes map, or this process's own. Every process that
+/// loads the library then has the same device.
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -12,8 +12,8 @@
 
 namespace palpate::device {
 
-/// The state in the file that the environment variable names; a file that is new has it as it is made. Without the
-/// variable, one of this process.
+/// The state in the file that the environment variable names; a new file gets the initial state. Without the variable,
+/// this process's own state.
 template <typename State>
 State& shared_state(const char* variable) {
   static State own;

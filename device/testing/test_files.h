@@ -1,13 +1,13 @@
 #pragma once
 
-/// Files that a test hands to a driver: firmware, settings.
+/// Files that a test passes to a driver: firmware, settings.
 
 #include <filesystem>
 #include <string>
 
 namespace palpate::device {
 
-/// A folder of its own in the system's temporary one, which any user may read; gone with the object.
+/// A temporary folder that any user may read; deleted with the object.
 class TestFiles {
  public:
   /// Throws std::system_error if no folder can be made.
@@ -16,7 +16,7 @@ class TestFiles {
   TestFiles& operator=(const TestFiles&) = delete;
   ~TestFiles();
 
-  /// Writes a file of this name anew and returns its path. Throws std::system_error where it cannot.
+  /// Writes a file of this name, replacing an old one, and returns its path. Throws std::system_error if it cannot.
   std::string write(const std::string& name, const std::string& bytes) const;
 
  private:

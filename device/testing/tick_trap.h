@@ -1,8 +1,8 @@
 #pragma once
 
-/// For tests: catches what a servo tick may not do. While a thread is trapped, its allocations, frees, locks and waits
-/// are counted, and so is every system call, by the kernel itself (syscall user dispatch, Linux 5.11 or newer); a
-/// trapped system call fails with ENOSYS and leaves the trap open for the rest of the tick.
+/// For tests: detects operations that a servo tick may not do. While a thread is trapped, its allocations, frees, locks
+/// and waits are counted, and so is every system call, by the kernel itself (syscall user dispatch, Linux 5.11 or
+/// newer). A trapped system call fails with ENOSYS and leaves the trap open for the rest of the tick.
 
 #include <string>
 
@@ -16,7 +16,7 @@ struct TrapCounts {
   long last_system_call = -1;  ///< its number
 };
 
-/// From here to the end of its life, of the thread that made it. One at a time in a thread.
+/// Traps the thread that made it until it is destroyed. One at a time in a thread.
 class TickTrap {
  public:
   TickTrap() noexcept;
@@ -25,10 +25,10 @@ class TickTrap {
   ~TickTrap();
 };
 
-/// Once in every thread that will be trapped; false if this kernel cannot trap system calls: then only the rest is
-/// counted.
+/// To be called once in every thread that will be trapped. False if this kernel cannot trap system calls: then only the
+/// rest is counted.
 bool prepare_tick_trap() noexcept;
-/// Of the calling thread, since it began.
+/// Counts of the calling thread, since its trap began.
 const TrapCounts& trap_counts() noexcept;
 /// "2 allocations, 1 lock", or empty if nothing was caught.
 std::string describe(const TrapCounts& counts);

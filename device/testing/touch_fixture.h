@@ -20,7 +20,7 @@ Function function_of_libhd(const char* name) {
   return reinterpret_cast<Function>(dlsym(dlopen(PALPATE_FAKE_LIBHD, RTLD_NOW | RTLD_NODELETE), name));
 }
 
-/// The scheduler's rounds come by hand, one a millisecond of a clock that only they move.
+/// The test runs the scheduler's rounds itself, one each millisecond of a clock that only they advance.
 class TouchFixture : public ::testing::Test {
  protected:
   TouchFixture() {
@@ -41,14 +41,14 @@ class TouchFixture : public ::testing::Test {
       round();
     }
   }
-  /// Of a stylus that waits for samples while no round comes: its patience ends all the same.
+  /// A clock for a stylus that waits for samples without rounds: it advances with every reading, so the wait ends.
   static double impatient_now() noexcept { return time += 1e-4; }
   static std::unique_ptr<LinkStylus> unthreaded(const TouchSettings& settings = {}) {
     LinkStylusOptions options;
     options.threaded = false;
     return make_touch_with(settings, options, {&impatient_now, &pass});
   }
-  /// Exchanges as long as something does not hold, at most two seconds.
+  /// Makes exchanges until the condition holds, at most two seconds.
   static bool comes(LinkStylus& stylus, const Vec3& force, const std::function<bool()>& holds) {
     for (int i = 0; i < 2000 && !holds(); ++i) {
       stylus.write_force(force);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A fake HID device by the kernel's uhid: the real HID stack finds it and gives it to hidapi as a hidraw node.
+/// A fake HID device through the kernel's uhid: the real HID stack finds it and gives it to hidapi as a hidraw node.
 
 #include <memory>
 
@@ -11,7 +11,7 @@ namespace palpate::device {
 class UhidMount {
  public:
   /// Plugs the play's HID device in; the play outlives this. Throws std::system_error if there is no /dev/uhid or no
-  /// right to it. Unplugs it where the play says so, and at the end.
+  /// permission for it. Unplugs it when the play requires it, and at the end.
   explicit UhidMount(Play& play);
   ~UhidMount();
 

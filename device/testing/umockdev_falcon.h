@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fake Falcon behind usbdevfs, as libusb finds it.
+/// The fake Falcon behind usbdevfs, for libusb.
 
 #include <umockdev.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A fake HID device behind hidraw, as hidapi finds it.
+/// A fake HID device behind hidraw, for hidapi.
 
 #include <umockdev.h>
 

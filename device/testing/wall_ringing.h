@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the drivers' tests share: how a wall rings under a fake device's hand.
+/// Shared by the drivers' tests: the ringing of a wall under a fake device's hand.
 
 #include <algorithm>
 
@@ -8,9 +8,8 @@
 
 namespace palpate::device {
 
-/// Presses on a wall of this stiffness (N/m) at y = 0, along the path that the hand has, and returns how far the hand
-/// still moves after two seconds, m. The bench runs a stylus for some seconds under a force that is a function of its
-/// readings.
+/// Presses on a wall of this stiffness (N/m) at y = 0, along the hand's path, and returns how far the hand still moves
+/// after two seconds, m. The bench runs a stylus for some seconds under a force that is a function of its readings.
 template <typename Bench, typename Hand>
 double ringing_of_wall(Bench& bench, const Hand& hand, double stiffness) {
   const auto wall = [&](const Reading& reading) { return Vec3(0, std::max(0.0, -stiffness * reading.position.y), 0); };

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What clients are told of a session beside its frames: status, contact, marks, the scene as it is felt, and its
-/// shapes (shapes.h). Of the controlling thread; look() is called about a hundred times a second.
+/// Sends clients the state of a session in addition to its frames: status, contact, marks, the felt scene, and its
+/// shapes (shapes.h). For the controlling thread; look() is called about a hundred times a second.
 
 #include <chrono>
 #include <cstdint>
@@ -25,18 +25,18 @@ inline constexpr double mark_diameter_mm = 2;  ///< as clients draw them
 
 class Announcer {
  public:
-  /// Whose press of the mark button makes a mark: the program that owns the session may keep its own.
+  /// Whether a press of the mark button makes a mark here; the program that owns the session may make marks itself.
   enum class MakesMarks { yes, no };
-  /// All have to outlive it.
+  /// The arguments must outlive it.
   Announcer(const LiveSession& session, Server& server, Publisher& publisher, const Received& received,
             MakesMarks makes_marks = MakesMarks::yes);
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
   ~Announcer() = default;
 
-  /// Follows the session: its ticks, its scan and its scene may be others than at the last call, or none.
+  /// Updates from the session: ticks, scan and scene may have changed since the previous call, or be missing.
   void look();
-  /// These take the place of all.
+  /// Replaces all marks.
   void set_marks(const std::vector<Point>& marks);
 
  private:
@@ -59,17 +59,18 @@ class Announcer {
   MakesMarks makes_marks_;
   std::shared_ptr<const TickRing> ticks_;
   std::shared_ptr<const io::Volume> scan_;
-  std::shared_ptr<const modes::Plan> plan_;  // every scene that is set has one of its own
-  bool is_new_ = true;                       // the session
+  std::shared_ptr<const modes::Plan> plan_;  // of the latest scene: every scene has its own plan
+  bool is_new_ = true;                       // whether the session is new
   std::string last_state_;
   Clock::time_point next_status_, next_contact_;
   MarkPresses presses_;
   std::uint64_t next_tick_ = 0;
   Marks felt_;                // made with the stylus
-  std::vector<Point> marks_;  // all, as they are sent
+  std::vector<Point> marks_;  // all marks as sent
   std::future<std::vector<Shape>> shapes_;
-  std::optional<Clock::time_point> shapes_wanted_;  // from when on: a scene that is being tuned has others soon
-  std::map<std::string, std::size_t> shapes_sent_;  // of each type and name the hash of its bytes
+  std::optional<Clock::time_point>
+      shapes_wanted_;  // time at which shapes will be sent: while a scene is being tuned they change often
+  std::map<std::string, std::size_t> shapes_sent_;  // hash of the bytes, by type and name
 };
 
 /// "off", "ready", "feeling" or "stopped", and the same as a sentence.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Big-endian numbers and texts of a fixed length, as OpenIGTLink writes them.
+/// Big-endian numbers and texts of a fixed length, as in OpenIGTLink.
 
 #include <array>
 #include <bit>
@@ -45,7 +45,7 @@ class Writer {
   Bytes bytes_;
 };
 
-/// Every call throws InvalidInput if the bytes end before.
+/// Every call throws InvalidInput if too few bytes are left.
 class Reader {
  public:
   explicit Reader(ByteView bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
 #pragma once
 
-/// One client of the server: its connection, what waits to be sent to it, and what has come from it.
+/// One client of the server: its connection, its send queue, and its received messages.
 
 #include <chrono>
 #include <cstdint>
@@ -13,32 +13,32 @@
 
 namespace palpate::plugin::igtl {
 
-/// The name under which the transforms of a frame are offered.
+/// The name in the queue for the transforms of a frame.
 inline constexpr const char* frame_name = "frame";
 
-/// Bytes that wait to be sent, in a name's place.
+/// Bytes to be sent, by name.
 struct Waiting {
   std::string name;
   std::shared_ptr<const Bytes> wire;
 };
-/// Puts it in the place of its name, or last. True if another one was replaced.
+/// Replaces the entry of that name, or appends. True if one was replaced.
 bool put(std::vector<Waiting>& queue, const Waiting& waiting);
 
-/// Since the server began.
+/// Counts since the server began.
 struct ServerCounts {
-  std::size_t clients = 0;        ///< now
-  std::uint64_t sent = 0;         ///< messages or frames that were written whole
-  std::uint64_t replaced = 0;     ///< that a newer one took the place of: the client is slow
+  std::size_t clients = 0;        ///< connected now
+  std::uint64_t sent = 0;         ///< completely written messages or frames
+  std::uint64_t replaced = 0;     ///< messages replaced by newer ones, because the client is slow
   std::uint64_t taken = 0;        ///< requests
-  std::uint64_t outrun = 0;       ///< requests that a newer one took the place of
-  std::uint64_t refused = 0;      ///< requests, and streams that could not be followed
-  std::uint64_t passed_over = 0;  ///< messages that Palpate has no use for
+  std::uint64_t outrun = 0;       ///< requests replaced by newer ones
+  std::uint64_t refused = 0;      ///< refused requests, and invalid streams
+  std::uint64_t passed_over = 0;  ///< messages of types that Palpate does not use
   std::uint64_t dropped = 0;      ///< messages with a wrong checksum
-  std::uint64_t cut = 0;          ///< clients that stopped reading
+  std::uint64_t cut = 0;          ///< connections closed because the client stopped reading
   std::uint64_t turned_away = 0;  ///< clients beyond most_clients
 };
 
-/// Of the network's thread alone.
+/// Used only by the network's thread.
 class Client {
  public:
   using Clock = std::chrono::steady_clock;
@@ -56,16 +56,16 @@ class Client {
   bool has_to_write() const noexcept { return current_ != nullptr || !queue_.empty(); }
   const Receiver& receiver() const noexcept { return receiver_; }
 
-  /// Whether it gets frames; STT_ and STP_ change it.
+  /// Whether it gets frames; STT_ and STP_ messages change it.
   bool streams = true;
   bool told_read_only = false;
 
   void queue(const Waiting& waiting, ServerCounts& counts);
-  /// Writes what can be written without waiting.
+  /// Writes as much as possible without waiting.
   void write(ServerCounts& counts);
-  /// Reads what has come, a quarter of a MiB at most. Throws InvalidInput as Receiver::take().
+  /// Reads available bytes, at most a quarter of a MiB. Throws InvalidInput as Receiver::take() does.
   void read(const Receiver::Got& got);
-  /// After what waits is written, or at once if that takes longer than a second.
+  /// Closes after everything is written, at the latest after a second.
   void close_soon() noexcept { closes_ = true; }
   /// Whether it is to be dropped: gone, or it has not read for ten seconds.
   bool ends(Clock::time_point now, ServerCounts& counts);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The contents of the small messages: TRANSFORM, STATUS, STRING, POINT. Places are those of the wire: RAS, mm.
+/// The contents of the small messages: TRANSFORM, STATUS, STRING, POINT. Positions are those of the wire: RAS, mm.
 /// Source: OpenIGTLink protocol (openigtlink.org/developers/spec).
 
 #include <array>
@@ -52,9 +52,10 @@ Status status_of(ByteView content);
 
 /// STRING: encoding (MIBenum; 3 is US-ASCII, 106 UTF-8), length, bytes.
 inline constexpr std::size_t longest_string = 65535;
-/// Says 106 if there is a letter outside ASCII. Throws InvalidInput if the text is longer than longest_string.
+/// Uses encoding 106 if there is a character outside ASCII. Throws InvalidInput if the text is longer than
+/// longest_string.
 Bytes string_content(std::string_view text);
-/// Of any encoding that has ASCII as it is.
+/// The text of a STRING in any encoding that extends ASCII.
 std::string string_of(ByteView content);
 
 /// POINT, 136 bytes each.
@@ -68,7 +69,7 @@ struct Point {
 };
 inline constexpr std::size_t point_size = 136;
 Bytes content_of(const std::vector<Point>& points);
-/// Throws InvalidInput if the size is none of whole points, or a coordinate is not a number.
+/// Throws InvalidInput if the size is not a multiple of a point's, or a coordinate is not a number.
 std::vector<Point> points_of(ByteView content);
 
 }  // namespace palpate::plugin::igtl

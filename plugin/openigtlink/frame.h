@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is sent sixty times a second: the newest tick as transforms, RAS.
+/// The messages sent sixty times a second: the newest tick as transforms, RAS.
 
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
@@ -12,11 +12,11 @@
 namespace palpate::plugin::igtl {
 
 struct Frame {
-  Transform stylus;    ///< turned as the stylus, if it senses that
-  Transform proxy;     ///< translation alone, here and below
-  Transform force;     ///< N: what the stylus was fed
-  Transform velocity;  ///< mm/s of the patient, of the stylus
-  Transform buttons;   ///< the first column: 1 for each of the first three that is pressed
+  Transform stylus;    ///< with the rotation of the stylus, if it measures that
+  Transform proxy;     ///< translation only, here and below
+  Transform force;     ///< N: on the stylus
+  Transform velocity;  ///< of the stylus, mm/s in the patient
+  Transform buttons;   ///< the first column: 1 for each pressed one of the first three
 };
 
 /// `before`: an earlier tick, for the velocity.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// IMAGE: a label map that a peer sends. Source: OpenIGTLink protocol, "IMAGE"; the place on the wire is that of the
+/// IMAGE: a label map sent by a client. Source: OpenIGTLink protocol, "IMAGE"; the position on the wire is that of the
 /// image's center, as 3D Slicer sends it.
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace palpate::plugin::igtl {
 
 inline constexpr std::size_t image_header_size = 72;
-/// Bytes of the largest image that is taken: 1024 x 1024 x 512 labels of 8 bits.
+/// Size of the largest accepted image, bytes: 1024 x 1024 x 512 labels of 8 bits.
 inline constexpr std::size_t largest_image = image_header_size + (std::size_t{1} << 29U);
 
 struct Image {
@@ -21,14 +21,14 @@ struct Image {
   Number number = Number::u8;
   bool big_endian = false;
   glm::ivec3 size{0};
-  std::array<glm::dvec3, 3> along{};  ///< from a voxel to the next, LPS, mm
+  std::array<glm::dvec3, 3> along{};  ///< from one voxel to the next, LPS, mm
   glm::dvec3 first{0};                ///< center of the first voxel, LPS, mm
-  ByteView voxels;                    ///< of the content that it was read from
+  ByteView voxels;                    ///< within the content that was read
 };
 
-/// Throws InvalidInput if it is not a whole image of whole numbers, one a voxel, whose size is that of its bytes.
+/// Throws InvalidInput unless it is a complete image of integers, one a voxel, whose size matches its bytes.
 Image image_of(ByteView content);
-/// As a peer sends it: in RAS, with the place of the center.
+/// In the form of the wire: RAS, with the position of the center.
 Bytes content_of(const Image& image);
 
 /// Writes a NRRD, which io/structures reads. Throws Refusal that names the file if it cannot be written.

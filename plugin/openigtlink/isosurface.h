@@ -1,8 +1,8 @@
 #pragma once
 
-/// The surface of a structure, from its distance, and of a value in a scan: as triangles. Source: "naive surface nets",
-/// after S. F. F. Gibson, "Constrained elastic surface nets", MICCAI 1998; here each vertex of a structure is moved on
-/// to the surface by the distance itself.
+/// The surface of a structure from its distance, or of a value in a scan, as triangles. Source: "naive surface nets",
+/// after S. F. F. Gibson, "Constrained elastic surface nets", MICCAI 1998. Here the distance moves each vertex of a
+/// structure onto the surface.
 
 #include <functional>
 
@@ -19,11 +19,11 @@ struct SurfaceDistance {
 };
 
 /// In the frame of the box, with cells of 1 mm, or of 2, 4 ... mm if there would be more than 60 000 of them. Cells
-/// whose middle is farther from the surface than their corners are not looked at.
+/// whose center is farther from the surface than their corners are skipped.
 Surface isosurface(const std::function<SurfaceDistance(const glm::dvec3&)>& distance, const io::Box& box);
 
-/// In patient space: where the scan's values, interpolated between every voxel or every few, cross this one. Turned
-/// towards lower values. As many cells at most; none beside padding, or where slices are missing.
+/// In patient space: where the scan's values, interpolated between voxels (or every few voxels), cross this value.
+/// Normals point to lower values. At most as many cells; no surface beside padding, or where slices are missing.
 Surface isosurface(const io::Volume& volume, double value);
 
 }  // namespace palpate::plugin::igtl

@@ -3,8 +3,8 @@
 /// A message of OpenIGTLink: a header of 58 bytes and a body. Source: OpenIGTLink protocol, versions 1 to 3
 /// (openigtlink.org/developers/spec), "Header". All numbers are big-endian.
 ///
-/// Palpate writes version 1, which every peer reads. It reads version 2 too: there the body has an extended header
-/// before the content and metadata after it.
+/// Palpate writes version 1, which every client can read. It also reads version 2, in which the body has an extended
+/// header before the content and metadata after it.
 
 #include <cstdint>
 #include <string>
@@ -35,16 +35,16 @@ struct Message {
   std::vector<std::pair<std::string, std::string>> metadata = {};  ///< of version 2
 };
 
-/// CRC-64 of ECMA-182: polynomial 42F0E1EBA9EA3693, begun with 0, neither reflected nor inverted. `before`: of the
-/// bytes before these.
+/// CRC-64 of ECMA-182: polynomial 42F0E1EBA9EA3693, initial value 0, neither reflected nor inverted. `before`: the
+/// checksum of preceding bytes.
 std::uint64_t checksum(ByteView bytes, std::uint64_t before = 0) noexcept;
 
-/// Appends the message as it goes over the wire.
+/// Appends the message in the form of the wire.
 void append(Bytes& wire, const Message& message, std::uint16_t version = 1);
 
-/// Throws InvalidInput if they are not the beginning of a message.
+/// Throws InvalidInput if the bytes are no header.
 Header read_header(ByteView bytes);
-/// Of a body whose checksum is right. Throws InvalidInput if its parts do not fit into it.
+/// The message of a header and a body with the right checksum. Throws InvalidInput if its parts do not fit into it.
 Message read_message(const Header& header, Bytes body);
 
 }  // namespace palpate::plugin::igtl

@@ -22,20 +22,20 @@ inline constexpr double frames_per_s = 60;
 
 class Publisher {
  public:
-  /// The server has to outlive it. Without ticks nothing is sent yet.
+  /// The server must outlive it. Nothing is sent without ticks.
   explicit Publisher(Server& server, std::shared_ptr<const TickRing> ticks = nullptr);
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
-  /// Sends what waits, for a tenth of a second at most, and ends the thread.
+  /// Sends the queued messages, for at most a tenth of a second, and ends the thread.
   ~Publisher();
 
   // --- Any thread.
-  /// Of the session that runs now; null: none does. The workspaces of the one before are forgotten.
+  /// The ticks of the running session; null: there is none. Forgets the workspaces of the previous one.
   void set_ticks(std::shared_ptr<const TickRing> ticks);
-  /// Where ticks from this epoch on are felt. Ticks of an epoch that is not known yet are not sent.
+  /// The workspace for ticks from this epoch on. Ticks of an unknown epoch are not sent.
   void set_workspace(std::uint32_t epoch, const modes::Workspace& workspace);
   void set_orientation(const std::optional<glm::dquat>& orientation);
-  /// UTC, s since 1970, of a tick: the stamp of what is said of it.
+  /// UTC, s since 1970, of a tick: the time stamp of its messages.
   double stamp_of(const TickRecord& tick) const;
 
  private:
@@ -47,7 +47,7 @@ class Publisher {
   mutable std::mutex mutex_;
   std::shared_ptr<const TickRing> ticks_;
   double began_s_ = 0;                                                 // UTC, of the session's tick 0
-  std::deque<std::pair<std::uint32_t, modes::Workspace>> workspaces_;  // the last few, by epoch
+  std::deque<std::pair<std::uint32_t, modes::Workspace>> workspaces_;  // the latest few, by epoch
   std::optional<glm::dquat> orientation_;
   std::atomic<bool> stop_{false};
   std::thread thread_;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Label maps that clients sent: each lies in a file of a temporary folder, under the name that its client gave it. In
-/// scenes on the wire its file is called "openigtlink:NAME", whichever file it lies in now.
+/// Label maps sent by clients: each is stored in a file of a temporary folder under the client's name for it. In scenes
+/// on the wire the file is called "openigtlink:NAME", independently of its present file.
 
 #include <filesystem>
 #include <map>
@@ -15,20 +15,21 @@ namespace palpate::plugin::igtl {
 
 class Received {
  public:
-  /// How many names there may be, and files of each.
+  /// Limits on the number of names, and of files for each.
   static constexpr std::size_t most_maps = 8, most_files = 4;
 
-  /// Where a new map of that name is to be written: beside the one that is there now, which is still read. Throws
-  /// Refusal if there are too many names.
+  /// The file for a new map of that name: beside the present one, which is still read. Throws Refusal if there are too
+  /// many names.
   std::filesystem::path fresh_file(const std::string& name);
-  /// Where the map of that name lies; empty if there is none.
+  /// The file of the map with that name; empty if there is none.
   std::filesystem::path file_of(const std::string& name) const;
-  /// From now on the name means that file. Of those before the last few stay: a change of scene may be undone.
+  /// From now on the name refers to that file. The latest few files before it are kept, because a change of scene may
+  /// be undone.
   void use(const std::string& name, const std::filesystem::path& file);
 
-  /// The scene with the names of maps in place of their files, for the wire.
+  /// The scene with names of maps in place of their files, for the wire.
   modes::Scene with_names(modes::Scene scene) const;
-  /// The other way round. Throws InvalidInput if it names a map that was not sent.
+  /// The inverse. Throws InvalidInput if the scene names a map that was not sent.
   modes::Scene with_files(modes::Scene scene) const;
 
  private:

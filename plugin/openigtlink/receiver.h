@@ -1,7 +1,7 @@
 #pragma once
 
-/// Bytes from a peer to whole messages. A peer may send half a message, lie about a size, or never end: no more memory
-/// is taken than bytes have come, and no more than the receiver wants of a message of that type.
+/// Assembles the bytes of a client into whole messages. A client may send half a message, give a wrong size, or never
+/// end. So no more memory is allocated than bytes have come, and no more than is wanted for a message of that type.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,32 +14,32 @@ namespace palpate::plugin::igtl {
 
 class Receiver {
  public:
-  /// The most bytes that the body of such a message may have; 0: the message is passed over.
+  /// The largest wanted body of such a message, bytes; 0: skip the message.
   using Wanted = std::function<std::size_t(const Header& header)>;
   using Got = std::function<void(Message&& message)>;
 
   explicit Receiver(Wanted wanted) : wanted_(std::move(wanted)) {}
 
-  /// The next bytes of the stream, in pieces of any size. Calls got() for each message that they end. A message with a
-  /// wrong checksum or broken parts is dropped and counted. Throws InvalidInput if the stream cannot be followed any
-  /// further: a header that is none, or a body that is larger than is wanted.
+  /// Takes the next bytes of the stream, in pieces of any size. Calls got() for each complete message. A message with a
+  /// wrong checksum or invalid parts is dropped and counted. Throws InvalidInput if the stream cannot be continued: an
+  /// invalid header, or a body that is larger than wanted.
   void take(ByteView bytes, const Got& got);
 
   std::uint64_t passed_over() const noexcept { return passed_over_; }
   std::uint64_t dropped() const noexcept { return dropped_; }
-  /// Of the last one.
+  /// The reason for the latest one.
   const Text& why_dropped() const noexcept { return why_dropped_; }
 
  private:
   void end_message(const Got& got);
 
   Wanted wanted_;
-  Bytes head_;                    // of the next message, until it is whole
-  std::optional<Header> header_;  // of the message whose body comes
+  Bytes head_;                    // of the next message, until it is complete
+  std::optional<Header> header_;  // of the message whose body is being read
   Bytes body_;
-  std::uint64_t left_ = 0;      // bytes of the body that have not come
-  std::uint64_t checksum_ = 0;  // of those that have: a large body is not gone through again at its end
-  bool keeps_ = false;          // the body; else it is passed over
+  std::uint64_t left_ = 0;      // missing bytes of the body
+  std::uint64_t checksum_ = 0;  // of the bytes so far, so that a large body is not read again at its end
+  bool keeps_ = false;          // whether the body is kept; otherwise it is skipped
   std::uint64_t passed_over_ = 0, dropped_ = 0;
   Text why_dropped_;
 };

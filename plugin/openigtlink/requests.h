@@ -1,8 +1,8 @@
 #pragma once
 
-/// What a client wants to be done, done: another scene, folder or structures, marks, a label map. Of the controlling
-/// thread. What takes long (reading, distances) is prepared by another thread, so that the heartbeat goes on. A request
-/// changes what is felt along the ramp. It can neither turn the force on nor raise a limit.
+/// Carries out the requests of clients: another scene, folder or structures, marks, a label map. For the controlling
+/// thread. Slow parts (reading, distances) are prepared in another thread, so that the heartbeat continues. A request
+/// changes the force along the ramp. It can neither turn the force on nor raise a limit.
 
 #include <deque>
 #include <filesystem>
@@ -25,12 +25,13 @@ struct LoadedScan {
   std::shared_ptr<const io::Volume> volume;
   ScanFrame frame;
 };
-/// Throws what loading throws. Called in another thread.
+/// Throws errors of loading. Called in another thread.
 using LoadScan = std::function<LoadedScan(const std::string& folder)>;
 
-/// How the owner of the session changes it. All are called by the controlling thread, and throw why it cannot be done.
+/// The owner's functions to change the session. They are called by the controlling thread, and throw the reason if a
+/// change is impossible.
 struct Changes {
-  /// `prepared` is of that scene: offered to the session, what it loaded is not loaded again.
+  /// `prepared` is for that scene: after offering it to the session, nothing is loaded again.
   std::function<void(const modes::Scene& scene, const PreparedScene& prepared)> set_scene;
   std::function<void(const LoadedScan& scan, const modes::Scene& scene, const PreparedScene& prepared)> set_scan;
   std::function<void(const std::vector<Point>& marks)> set_marks;
@@ -40,11 +41,11 @@ struct Changes {
 
 namespace internal {
 
-/// Files are named by clients of this machine alone: another one's lie elsewhere, and are no business of a stranger.
-/// Throws Refusal.
+/// Only clients on this machine may name files: the paths of others mean other files, and must not be probed. Throws
+/// Refusal.
 void check_file(const Server::Request& request, const std::string& file);
 
-/// The same for each file that a scene names and the felt scene does not. A structure that is drawn has none.
+/// The same for each file that a scene names and the felt scene does not. A structure defined by contours has none.
 void check_files(const Server::Request& request, const modes::Scene& wanted, const modes::Scene& felt);
 
 /// Throws Refusal if no scan is open.
@@ -54,29 +55,29 @@ void check_scan(bool is_open);
 
 class Requests {
  public:
-  /// All have to outlive it. The limits and the stiffness of the session's scene are those that no request can raise:
-  /// of the last scene that was not a request's.
+  /// The arguments must outlive it. No request can raise the limits and the stiffness of the latest scene that did not
+  /// come from a request.
   Requests(const LiveSession& session, Server& server, Received& received, Changes changes);
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
   ~Requests() = default;
 
-  /// Takes what has come, and does what is ready.
+  /// Takes new requests, and carries out those that are ready.
   void look();
 
  private:
-  /// What a request comes to, once it is prepared.
+  /// The changes of a request, once it is prepared.
   struct Change {
     modes::Scene scene;
     std::optional<LoadedScan> scan = std::nullopt;  ///< none: the scan stays
-    PreparedScene prepared = {};                    ///< held until the session has taken it over
-    std::string map = {};                           ///< the name of a label map, if it is one,
-    std::filesystem::path file = {};                ///< and where it lies now
+    PreparedScene prepared = {};                    ///< kept until the session has taken it over
+    std::string map = {};                           ///< name of the label map, if the request is one
+    std::filesystem::path file = {};                ///< and its present file
   };
   using Prepare = std::function<Change()>;
 
   void begin();
-  /// Of copies: the session goes on meanwhile. Empty if nothing changes.
+  /// Works on copies, because the session continues meanwhile. Empty if nothing changes.
   Prepare work_for(const std::shared_ptr<const Server::Request>& asked);
   void finish(const Change& change);
   void keep_own_limits();
@@ -90,10 +91,11 @@ class Requests {
   Changes changes_;
   modes::Limits limits_;
   double stiffness_n_per_m_ = 0;
-  std::shared_ptr<const modes::Plan> plan_;  // of the scene that a request set last, or whose limits are kept
+  std::shared_ptr<const modes::Plan>
+      plan_;  // of the scene of the latest request, or of the scene whose limits are kept
   std::deque<std::shared_ptr<const Server::Request>> waiting_;
-  std::shared_ptr<const Server::Request> asked_;  // the last that was begun
-  std::shared_ptr<const modes::Plan> begun_on_;   // of the scene that it changes: every scene has a plan of its own
+  std::shared_ptr<const Server::Request> asked_;  // the latest one begun
+  std::shared_ptr<const modes::Plan> begun_on_;   // of the scene that it changes: every scene has its own plan
   std::future<Change> change_;
   std::string last_told_;
 };

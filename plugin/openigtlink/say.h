@@ -1,6 +1,6 @@
 #pragma once
 
-/// What this folder says to a user. A header of its own, so that a new message of it does not compile all of plugin.
+/// The messages of this folder. A separate header, so that a new message recompiles only this folder.
 
 #include "plugin/messages/messages_of_openigtlink.h"
 

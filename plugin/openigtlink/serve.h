@@ -13,10 +13,10 @@ struct ServeOptions {
   LoadScan load;       ///< for PalpateFolder
 };
 
-/// What requests change, changed in the session itself. It has to outlive them.
+/// Functions that change the session itself. It must outlive them.
 Changes changes_of(LiveSession& session, LoadScan load);
 
-/// The session holds a stylus. Says on stderr where it listens, and at the end what went over the wire.
+/// The session must hold a stylus. Prints the address on stderr, and at the end the traffic.
 void serve(LiveSession& session, Server& server, const ServeOptions& options);
 
 }  // namespace palpate::plugin::igtl

@@ -1,9 +1,9 @@
 #pragma once
 
-/// A server of OpenIGTLink for a few clients. One thread steps it, and no other thread waits for the network: what is
-/// sent and what has come lie in bounded queues in which the newest of a name takes the place of the one before.
+/// An OpenIGTLink server for a few clients. One thread steps it, and no other thread waits for the network: sent and
+/// received messages are in bounded queues, in which the newest of a name replaces the previous one.
 ///
-/// The first client that sends something to be done controls; the others read, until it is gone.
+/// The first client that sends a request is the controlling one; until it disconnects, the others only read.
 
 #include <atomic>
 #include <chrono>
@@ -21,13 +21,13 @@ inline constexpr int default_port = 18944;
 inline constexpr std::size_t most_clients = 8;
 
 struct Address {
-  std::string host = "127.0.0.1";  ///< of an interface of this machine, in numbers
-  int port = default_port;         ///< 0: any that is free
+  std::string host = "127.0.0.1";  ///< address of an interface of this machine, numeric
+  int port = default_port;         ///< 0: any free port
 };
 
 class Server {
  public:
-  /// What a client wants to be done.
+  /// A client's request.
   struct Request {
     std::uint64_t client = 0;
     bool from_this_machine = true;
@@ -45,18 +45,18 @@ class Server {
   bool is_local() const noexcept { return local_; }
 
   // --- Any thread.
-  /// For all clients: takes the place of what waits under that name. `kept`: new clients get it, too.
+  /// To all clients: replaces a waiting message of that name. `kept`: new clients get it, too.
   void offer(const std::string& name, Bytes wire, bool kept = false);
-  /// New clients do not get it any more.
+  /// No longer sends it to new clients.
   void forget(const std::string& name);
   /// For one client.
   void answer(std::uint64_t client, const std::string& name, Bytes wire);
-  /// What has come since the last call: of each type and device the newest.
+  /// The requests since the previous call: the newest of each type and device.
   std::vector<Request> take();
   ServerCounts counts() const;
 
   // --- The network's thread.
-  /// Waits up to that long for something to do, then reads and writes what can be read and written without waiting.
+  /// Waits up to that long, then reads and writes as much as possible without waiting.
   void step(std::chrono::milliseconds wait);
 
  private:
@@ -71,7 +71,7 @@ class Server {
 
   int listener_ = -1, port_ = 0;
   bool local_ = true;
-  std::uint64_t last_client_ = 0, controls_ = 0;  // 0: nobody
+  std::uint64_t last_client_ = 0, controls_ = 0;  // 0: none
   std::vector<std::unique_ptr<Client>> clients_;
   // Across the threads.
   mutable std::mutex mutex_;

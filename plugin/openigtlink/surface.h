@@ -16,10 +16,10 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise, seen from outside
 };
 
-/// No triangle may name a point that is not there.
+/// Triangles must refer only to existing points.
 Bytes content_of(const Surface& surface);
-/// Reads the points and the polygons of three corners; all else is passed over. For tests: Palpate takes no surfaces.
-/// Throws InvalidInput if the sizes do not fit together, before memory is taken for them.
+/// Reads points and triangles; everything else is ignored. For tests: Palpate accepts no surfaces. Throws InvalidInput
+/// if the sizes are inconsistent, before allocating memory.
 Surface surface_of(ByteView content);
 
 }  // namespace palpate::plugin::igtl

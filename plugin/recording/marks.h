@@ -26,11 +26,11 @@ struct FeltMark {
   std::uint64_t tick = 0;  ///< index of the tick
   double time_s = 0;       ///< since the session or its recording began
   glm::dvec3 position_mm{0};
-  /// The boundary that held the stylus with more than 0.05 N, the strongest of them, by its mode's name or type; empty:
-  /// none did. What is felt everywhere, as friction, is no boundary.
+  /// The mode (its name, or else its type) of the strongest boundary that held the stylus with more than 0.05 N; empty:
+  /// none did. Forces that act everywhere, such as friction, are no boundaries.
   std::string boundary;
   double value = 0;    ///< of the scan; NaN outside
-  double force_n = 0;  ///< N, of what the stylus was fed
+  double force_n = 0;  ///< on the stylus
 };
 
 /// The path of the proxy while the button was held down.
@@ -39,7 +39,7 @@ struct MarkedPath {
   double begin_s = 0, end_s = 0;
   std::vector<glm::dvec3> points_mm;
   double length_mm = 0;
-  double touched_mm = 0;  ///< of its length, where a boundary held the stylus; NaN: not known
+  double touched_mm = 0;  ///< length in contact with a boundary; NaN: unknown
 };
 
 /// Whether a boundary held the stylus all along a path, nowhere, or on parts of it.
@@ -65,7 +65,7 @@ struct Marks {
   std::vector<MarkedAngle> angles;
 };
 
-/// What a press made; it has no name yet.
+/// The result of a press, without a name.
 using MarkMade = std::variant<FeltMark, MarkedPath>;
 
 /// Follows the mark button from tick to tick. A press that is shorter than 0.25 s, or during which the proxy stays
@@ -77,13 +77,13 @@ class MarkPresses {
     double time_s = 0;
     glm::dvec3 proxy_mm{0};
     std::span<const PrimitiveRecord> shares;
-    const modes::Scene& scene;  ///< that was felt
+    const modes::Scene& scene;  ///< the felt scene
   };
-  /// What a press made, if the press ended in this tick.
+  /// The result of a press that ended in this tick.
   std::optional<MarkMade> take(const Moment& moment);
-  /// The same, when there are no more ticks.
+  /// The same after the last tick.
   std::optional<MarkMade> finish();
-  /// Forgets the current press: it makes nothing.
+  /// Cancels the current press.
   void drop() { down_ = false; }
   bool is_down() const { return down_; }
 
@@ -94,11 +94,11 @@ class MarkPresses {
   glm::dvec3 last_mm_{0};
 };
 
-/// What was marked in a recording, with a distance from each mark to the next, and an angle at each mark that has two
+/// The marks of a recording, with the distance from each mark to the next, and the angle at each mark with two
 /// neighbors.
 Marks marks_of(const RecordedSession& session);
 
-/// The length of a distance or the degrees of an angle between marks; none if two of the places are equal.
+/// The length of a distance, and the angle at a mark; no angle if two of the places are equal.
 double distance_mm(const Marks& marks, std::size_t from, std::size_t to);
 std::optional<double> angle_degrees(const Marks& marks, std::size_t from, std::size_t at, std::size_t to);
 

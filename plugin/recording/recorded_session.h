@@ -1,6 +1,6 @@
 #pragma once
 
-/// A recording seen from the patient: where stylus and proxy were in the scan, and what was felt there.
+/// A recording in patient space: positions of stylus and proxy in the scan, and the felt forces.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -18,7 +18,7 @@ namespace palpate::plugin {
 
 class RecordedSession {
  public:
-  /// From the ticks that felt this scan, as its hash tells. Throws std::runtime_error if there is none, and
+  /// Uses the ticks recorded on this scan, by its hash. Throws std::runtime_error if there are none, and
   /// std::invalid_argument if a scene is invalid.
   RecordedSession(Recording recording, const io::Volume& volume);
 
@@ -33,16 +33,16 @@ class RecordedSession {
   const TickRecord& tick(std::size_t n) const { return recording_.ticks[n]; }
   std::span<const PrimitiveRecord> shares(std::size_t n) const;
   const modes::Scene& scene(std::size_t n) const;
-  /// Those of the scene's structures whose distances the tick records, in the record's order.
+  /// The scene's structures with recorded distances at this tick, in the record's order.
   const std::vector<std::size_t>& structures(std::size_t n) const { return setting(n).structures; }
-  /// Where the hand's reach was. During a change of scene it moves from one place to the other.
+  /// The workspace at this tick. During a change of scene it moves from the old to the new one.
   modes::Workspace workspace(std::size_t n) const;
   // mm and N, patient space (LPS). The force is the one sent to the stylus.
   glm::dvec3 probe_mm(std::size_t n) const;
   glm::dvec3 proxy_mm(std::size_t n) const;
   glm::dvec3 sent_n(std::size_t n) const;
 
-  /// Ticks that were left out because they were recorded on another scan.
+  /// Ticks left out because they were recorded on another scan.
   std::size_t elsewhere() const noexcept { return elsewhere_; }
 
  private:

@@ -28,32 +28,32 @@
 namespace palpate::plugin {
 
 struct RecorderOptions {
-  std::uintmax_t spare_bytes = 64U << 20U;  ///< of the disk, kept free for others: recording ends before that
-  std::optional<std::uint64_t> first_tick;  ///< of the ring; by default the next that it gets
-  /// Ticks that the recording thread reaches later than this are recorded without KnownTo. Otherwise, after a slow
-  /// disk, fields would be computed where the stylus was long ago.
+  std::uintmax_t spare_bytes = 64U << 20U;  ///< kept free on the disk for other programs: recording ends before
+  std::optional<std::uint64_t> first_tick;  ///< of the ring; by default the next new one
+  /// Ticks that the recording thread reaches later than this many ticks are recorded without KnownTo. Otherwise, after
+  /// a delay by the disk, fields would be computed far from the stylus.
   std::uint64_t most_behind = 250;
   /// Called by the recording thread before each batch is written. Tests use it to make a disk slow.
   std::function<void()> before_write;
-  /// The clock that tells when to flush. Tests set another.
+  /// The clock for flushing. Tests set another one.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
-/// How precisely the place of the boundary that holds the proxy is known in a tick with these shares, mm
+/// The uncertainty of the position of the boundary that holds the proxy in a tick with these shares, mm
 /// (Recording::known_to_mm); NaN if no boundary holds it. Called by the recording thread.
 using KnownTo = std::function<double(const TickRecord& tick, std::span<const PrimitiveRecord> shares)>;
 
 struct RecorderStatus {
   std::uint64_t written = 0;  ///< ticks
   std::uint64_t lost = 0;     ///< ticks
-  bool stopped = false;       ///< before finish(): `why` tells the user the reason
+  bool stopped = false;       ///< before finish(): `why` gives the reason
   Text why;
 };
 
 class Recorder {
  public:
-  /// Records what the ring gets from now on. The file is named `<file>.partial` until finish(). The ring must outlive
-  /// the recorder. Throws std::runtime_error that names the file if it cannot be created.
+  /// Records all new ticks of the ring. The file is named `<file>.partial` until finish(). The ring must outlive the
+  /// recorder. Throws std::runtime_error that names the file if it cannot be created.
   Recorder(const TickRing& ring, std::filesystem::path file, const RecordingHeader& header,
            RecorderOptions options = {});
   Recorder(const Recorder&) = delete;
@@ -61,7 +61,7 @@ class Recorder {
   /// As finish(), without reporting errors.
   ~Recorder();
 
-  // Called by the controlling thread: what it is about to publish to the session.
+  // Called by the controlling thread for each scene before it is published to the session.
   void note(const SceneRecord& scene, KnownTo known_to = {});
   void note(const StylusRecord& stylus);
 
@@ -73,8 +73,8 @@ class Recorder {
   void wait_for_room();
   RecorderStatus status() const;
 
-  /// Writes what is left in the ring and closes the file. Ticks that come meanwhile belong to the next recorder, whose
-  /// RecorderOptions::first_tick is next(). Call it once.
+  /// Writes the rest of the ring and closes the file. Later ticks belong to the next recorder, whose
+  /// RecorderOptions::first_tick is next(). To be called once.
   RecorderStatus finish();
 
  private:
@@ -88,14 +88,14 @@ class Recorder {
   const TickRing& ring_;
   RecorderOptions options_;
   std::filesystem::path file_;
-  mutable std::mutex mutex_;  // of the events, the status and the end; never taken by the servo
+  mutable std::mutex mutex_;  // protects the events, the status and the end; the servo never takes it
   std::condition_variable progress_;
   std::vector<std::function<void(RecordingWriter&)>> events_;
   RecorderStatus status_;
   bool ending_ = false;
-  std::uint64_t end_ = std::numeric_limits<std::uint64_t>::max();  ///< ticks from here on are another recorder's
+  std::uint64_t end_ = std::numeric_limits<std::uint64_t>::max();  ///< later ticks belong to another recorder
   std::atomic<std::uint64_t> next_;                                // tick of the ring
-  // The recording thread's.
+  // Used by the recording thread.
   RecordingWriter writer_;
   std::vector<TickRecord> ticks_;
   std::vector<PrimitiveRecord> shares_;

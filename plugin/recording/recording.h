@@ -34,7 +34,7 @@ struct RecordingHeader {
   double rate_hz = 1000;
 };
 
-/// Which frame was felt, of a series with several images at a position.
+/// The felt frame of a series with several images at a position.
 struct ScanFrame {
   int number = 0;  ///< from 0
   int count = 1;
@@ -42,19 +42,19 @@ struct ScanFrame {
   bool operator==(const ScanFrame&) const = default;
 };
 
-/// A scene as it was published, with everything that is needed to make its Snapshot again.
+/// A scene as published, with everything that is needed to make its Snapshot again.
 struct SceneRecord {
   std::uint32_t epoch = 0;  ///< TickRecord::scene_epoch
   std::string scene;        ///< JSON
   std::string scan_hash;
-  glm::dvec3 half_extent_m{0};   ///< of the stylus that the workspace was placed for
+  glm::dvec3 half_extent_m{0};   ///< of the stylus for which the workspace was computed
   double maximum_force_n = 1e9;  ///< of that stylus
-  double change_s = 0.5;         ///< how long the change to it took
-  /// Names of those whose distances the ticks tell, in the order of TickRecord::distance_mm.
+  double change_s = 0.5;         ///< duration of the change to it
+  /// The structures with recorded distances, by name, in the order of TickRecord::distance_mm.
   std::vector<std::string> structures = {};
-  /// Those of them that a registration put on the scan. Empty in recordings of versions before 0.2.0, too.
+  /// Those of them that were placed by a registration. Also empty in recordings of versions before 0.2.0.
   std::vector<RegisteredStructure> registered = {};
-  std::optional<ScanFrame> frame = std::nullopt;  ///< none: recorded by a version that did not tell, before 0.2.0
+  std::optional<ScanFrame> frame = std::nullopt;  ///< none in recordings of versions before 0.2.0
 };
 
 struct StylusRecord {
@@ -64,7 +64,7 @@ struct StylusRecord {
   double maximum_force_n = 1e9;
 };
 
-/// Ticks that the recorder missed: the disk was slow for longer than the ring can hold.
+/// Ticks that the recorder missed because the disk was slow for longer than the ring can hold.
 struct Gap {
   std::uint64_t first_tick = 0;
   std::uint64_t ticks = 0;
@@ -74,29 +74,28 @@ struct Recording {
   RecordingHeader header;
   std::vector<TickRecord> ticks;
   std::vector<PrimitiveRecord> shares;  ///< tick by tick, in the order of the primitives
-  /// One a tick: the true boundary is within this of the proxy in 95 of 100 places, mm
-  /// (io/fields/boundary_uncertainty.h). NaN if no boundary of the scan holds the proxy, while a scene changes, and
-  /// where the recording thread was far behind. Empty: recorded by a version before 0.2.0.
+  /// One for each tick: at 95 of 100 places the true boundary is within this of the proxy, mm
+  /// (io/fields/boundary_uncertainty.h). NaN if no boundary of the scan holds the proxy, while a scene changes, and if
+  /// the recording thread was far behind. Empty in recordings of versions before 0.2.0.
   std::vector<double> known_to_mm;
   std::vector<SceneRecord> scenes;
   std::vector<StylusRecord> styluses;
   std::vector<Gap> gaps;
-  bool complete = true;  ///< false: the file was not closed properly; this is what was flushed
+  bool complete = true;  ///< false: the file was not closed properly; these are the flushed ticks
 };
 
 /// Writes to a second file and renames it, so that no half-written file is left. Throws std::runtime_error that names
 /// the file.
 void write_recording(const Recording& recording, const std::filesystem::path& file);
 
-/// Reads also a file that is still being written, or whose writer died. Throws std::runtime_error that names the file
-/// and what is missing in it.
+/// Can also read a file that is still being written, or whose writer crashed. Throws std::runtime_error that names the
+/// file and what is missing in it.
 Recording read_recording(const std::filesystem::path& file);
 
-/// The frames of the series that were felt, each once, in the order in which they were first felt. Empty if the
-/// recording does not say.
+/// The felt frames of the series, each once, in the order of first use. Empty if the recording does not contain them.
 std::vector<ScanFrame> scan_frames_of(const Recording& recording);
 
-/// Which registrations put structures on the scan, each once.
+/// The registrations that placed structures on the scan, each once.
 std::vector<RegisteredStructure> registered_of(const Recording& recording);
 
 /// One line a tick, every member a column. Throws std::runtime_error naming the file.

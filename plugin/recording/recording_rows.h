@@ -14,12 +14,12 @@ hdf5::Handle tick_row_type();
 hdf5::Handle share_row_type();
 hdf5::Handle known_to_row_type();
 
-/// One line of JSON, with its line feed.
+/// A line of JSON, with its line feed.
 std::string to_line(const SceneRecord& scene);
 std::string to_line(const StylusRecord& stylus);
 std::string to_line(const Gap& gap);
-/// Adds the events of the lines to the recording. An incomplete last line is left out. Throws std::exception if a line
-/// is not what to_line() writes.
+/// Adds the events in the lines to the recording. An incomplete last line is ignored. Throws std::exception for lines
+/// that to_line() does not write.
 void read_events(std::string_view lines, Recording& recording);
 
 }  // namespace palpate::plugin

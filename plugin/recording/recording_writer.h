@@ -1,6 +1,6 @@
 #pragma once
 
-/// Writes a recording while it grows, so that what was flushed can be read whatever happens next.
+/// Writes a growing recording, so that its flushed part stays readable after any failure.
 
 #include <filesystem>
 #include <memory>
@@ -20,8 +20,8 @@ class RecordingWriter {
   /// Without finish(), leaves `<file>.partial` as it was when it was last flushed.
   ~RecordingWriter();
 
-  /// Appends whole ticks with all their shares, and for each tick how precisely the boundary is known
-  /// (Recording::known_to_mm). If that list is empty, it is not known in any of them.
+  /// Appends whole ticks with all their shares, and for each tick the uncertainty of the boundary
+  /// (Recording::known_to_mm). If that list is empty, all are unknown.
   void append(std::span<const TickRecord> ticks, std::span<const PrimitiveRecord> shares,
               std::span<const double> known_to_mm = {});
   void append(const SceneRecord& scene);
@@ -31,7 +31,7 @@ class RecordingWriter {
   void flush();
   /// Closes the file properly and gives it its name.
   void finish();
-  /// Where it is written until it is finished.
+  /// The file before finish().
   const std::filesystem::path& partial() const noexcept { return partial_; }
 
  private:

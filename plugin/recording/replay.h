@@ -1,7 +1,7 @@
 #pragma once
 
-/// Repeats a recorded session, tick by tick: with the same poses, times, scenes and commands, and so, on the same
-/// build, with the same forces to the last bit.
+/// Replays a recorded session tick by tick, with the same poses, times, scenes and commands; so, with the same build,
+/// the forces are the same to the last bit.
 
 #include <cstdint>
 #include <functional>
@@ -20,17 +20,17 @@ struct Replay {
   std::uint64_t ticks = 0;                       ///< replayed
   std::uint64_t different = 0;                   ///< ticks that differ in any bit (same_in_replay)
   std::optional<std::uint64_t> first_different;  ///< index of the tick
-  /// Largest distance between the recorded and the repeated proxy; infinity where one of them is not a number.
+  /// Largest distance between the recorded and the replayed proxy; infinite if one of them is not a number.
   double largest_proxy_m = 0;
-  double largest_force_n = 0;   ///< the same of what was sent
-  double largest_bound_m = 0;   ///< largest sum of a tick's two certified bounds: two builds may differ by as much
-  std::uint64_t after_gap = 0;  ///< ticks that cannot be replayed, since some before them were lost
+  double largest_force_n = 0;   ///< likewise for the force sent
+  double largest_bound_m = 0;   ///< largest sum of a tick's two certified bounds: two builds may differ by that much
+  std::uint64_t after_gap = 0;  ///< ticks that cannot be replayed, because earlier ones were lost
 };
 
 /// Throws std::runtime_error if the recording has no scene or if an event is missing, and what the maker throws.
 Replay replay(const Recording& recording, const SnapshotMaker& make_snapshot);
 
-/// The same of a recording in several files, one after the other.
+/// Replays a recording in several files, one after the other.
 class Replayer {
  public:
   explicit Replayer(SnapshotMaker make_snapshot);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A table as text, written row by row. fmt::ostream is not used: where a disk is full it ends the program.
+/// A table as text, written row by row. fmt::ostream is not used, because it ends the program if the disk is full.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin {
 
-/// Takes the place of a file that was there. Every function throws std::system_error where it cannot write.
+/// Replaces an existing file. Every function throws std::system_error if it cannot write.
 class TableFile {
  public:
   explicit TableFile(const std::filesystem::path& file);
@@ -20,7 +20,7 @@ class TableFile {
   void print(fmt::format_string<T...> format, T&&... values) {
     fmt::print(file_.get(), format, std::forward<T>(values)...);
   }
-  /// Writes what is left. Without it nobody is told that there was no room for that.
+  /// Writes the rest. Without this call, a full disk is not reported for it.
   void close();
 
  private:

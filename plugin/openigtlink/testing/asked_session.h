@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the tests of clients' requests look at.
+/// Shared by the tests of clients' requests.
 
 #include <glm/geometric.hpp>
 #include <optional>
@@ -14,7 +14,7 @@ inline double sent_n(const SharedSession& shared) {
   return glm::length(vector_of(shared.last_tick().sent_n));
 }
 
-/// A STATUS that says so by its name, while the session goes on.
+/// The text of the next STATUS with that name, while the session continues.
 inline std::string text_of_status(SharedSession& shared, TestClient& client, const std::string& name) {
   std::optional<Status> status;
   shared.comes([&] { return (status = client.next_status(name, 20)).has_value(); });

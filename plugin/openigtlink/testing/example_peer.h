@@ -7,7 +7,7 @@
 
 namespace palpate::plugin::igtl::testing {
 
-/// An example of Debian's OpenIGTLink.
+/// An example program of Debian's OpenIGTLink.
 class Peer : public Program {
  public:
   Peer(const std::string& example, const std::string& arguments, const std::filesystem::path& output = "/dev/null")

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What tests of the wire share: another program as a peer, and a plain connection.
+/// Shared by tests of the wire: another program as a peer, and a plain connection.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -33,7 +33,7 @@ inline sockaddr_in local(int port) {
   return address;
 }
 
-/// A port of this machine that nothing listens on.
+/// A port of this machine on which no program listens.
 inline int free_port() {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address = local(0);
@@ -45,7 +45,7 @@ inline int free_port() {
   return ntohs(address.sin_port);
 }
 
-/// A program that runs until it is ended by SIGTERM, or ends by itself. What it says goes into a file.
+/// A program that runs until it ends itself or gets SIGTERM. Its output goes to a file.
 class Program {
  public:
   Program(const std::string& program, const std::string& arguments, const std::filesystem::path& output = "/dev/null") {
@@ -80,7 +80,7 @@ class Program {
     child_ = -1;
     return exit_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// Seconds of a processor that all its threads have used, also those that have ended. It must be running.
+  /// Processor time of all its threads so far, ended ones included, s. It must be running.
   double processor_s() const {
     std::ifstream file("/proc/" + std::to_string(child_) + "/stat");
     std::string text((std::istreambuf_iterator<char>(file)), {});
@@ -96,7 +96,7 @@ class Program {
 
 class Connection {
  public:
-  /// Waits up to ten seconds for the server to be there.
+  /// Waits up to ten seconds for the server.
   explicit Connection(int port) {
     const sockaddr_in address = local(port);
     for (int tries = 0; tries < 500; ++tries) {
@@ -121,7 +121,7 @@ class Connection {
     }
     return true;
   }
-  /// What comes within the time; empty if nothing does.
+  /// The bytes received within the time; empty if there are none.
   Bytes receive(int milliseconds = 100) {
     pollfd waiting{.fd = socket_, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, milliseconds) <= 0) return {};

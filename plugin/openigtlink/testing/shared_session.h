@@ -64,7 +64,7 @@ struct SharedSession {
     sharing->look();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  /// Whether it comes to hold within a minute: the machine may be busy.
+  /// Whether the condition becomes true within a minute: the machine may be busy.
   template <typename Holds>
   bool comes(const Holds& holds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);

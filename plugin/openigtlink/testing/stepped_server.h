@@ -1,6 +1,6 @@
 #pragma once
 
-/// A server that a thread steps, and clients of it.
+/// A server stepped by a thread, and clients of it.
 
 #include <atomic>
 #include <optional>
@@ -50,7 +50,7 @@ class TestClient {
   bool send_text(const char* device, std::string_view text) {
     return send({.type = "STRING", .device = device, .content = string_content(text)});
   }
-  /// The next message; none if nothing comes in that time, or the connection is closed.
+  /// The next message; none if none comes in that time, or the connection is closed.
   std::optional<Message> next(int milliseconds = 5000) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
     while (got_.empty() && !connection_.closed() && std::chrono::steady_clock::now() < end) {
@@ -61,7 +61,7 @@ class TestClient {
     got_.erase(got_.begin());
     return message;
   }
-  /// The next one of that type and device; those before it are passed over.
+  /// The next message of that type and device; earlier ones are skipped.
   std::optional<Message> next(std::string_view type, std::string_view device, int milliseconds = 5000) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
     while (std::chrono::steady_clock::now() < end) {
@@ -71,7 +71,7 @@ class TestClient {
     }
     return std::nullopt;
   }
-  /// The next STATUS that says this by name.
+  /// The next STATUS with that name.
   std::optional<Status> next_status(std::string_view name, int milliseconds = 5000) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
     while (std::chrono::steady_clock::now() < end) {
