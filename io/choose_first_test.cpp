@@ -1,4 +1,4 @@
-// Which of two series goes first: each rule decides against all that come after it, from its limit on.
+// The order of two series: each rule decides, from its limit on, against all rules after it.
 #include "io/choose_first.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a filter is called, which numbers it may have, and which of them it reads.
+// The names of filters, their valid settings, and which settings each type reads.
 #include "io/filter.h"
 
 #include <gtest/gtest.h>

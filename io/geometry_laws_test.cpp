@@ -1,5 +1,5 @@
-/// Laws of the voxels' geometry on grids that are odd in every way at once: oblique, with rows and columns that are not
-/// quite perpendicular, pixels that are not square, a gantry that is tilted and slices that are uneven.
+/// Laws of the voxels' geometry on grids that combine all oddities: oblique, with rows and columns that are not quite
+/// perpendicular, pixels that are not square, a tilted gantry and uneven slices.
 
 #include <gtest/gtest.h>
 

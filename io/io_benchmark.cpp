@@ -1,4 +1,4 @@
-// What the fields of a scan cost: a sample hot, cold and without its brick, bricks, whole volumes, and loading.
+// Run times of the fields of a scan: a sample hot, cold and without its brick, bricks, whole volumes, and loading.
 #include <benchmark/benchmark.h>
 
 #include <array>

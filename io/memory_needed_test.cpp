@@ -1,4 +1,4 @@
-// The memory that a refusal names is that of the voxels.
+// The memory named in a refusal is that of the voxels.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Each message of the module's tables, as it is said.
+// Each message of the module's tables, in its final form.
 
 #include "io/messages.h"
 

@@ -1,6 +1,6 @@
-// Scans that other programs wrote: nibabel (every type of number of NIfTI-1 and NIfTI-2, in both orders of bytes,
-// frames, both forms, colors) and pydicom (doses of 32 bits, unsigned slices among signed ones, a stack taken in
-// passes). Each voxel lies where that program says, with its value.
+// Scans written by other programs: nibabel (every type of number of NIfTI-1 and NIfTI-2, in both byte orders, frames,
+// both forms, colors) and pydicom (32-bit doses, unsigned slices among signed ones, a stack acquired in passes). Each
+// voxel is at that program's position, with its value.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

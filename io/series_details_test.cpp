@@ -1,5 +1,4 @@
-// What tells series apart, which of them to feel first, and what is set apart: against the headers that are written
-// here.
+// The details of series, which one to feel first, and which files are skipped, against headers written here.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gmock/gmock.h>

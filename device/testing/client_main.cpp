@@ -1,8 +1,8 @@
-// A session's part of the tests that go through the real libraries: opens a device as palpate does, pushes, ends.
+// The session for the tests with the real libraries: opens a device as palpate does, pushes, and ends.
 //   device_client KIND SCENARIO [FILE]
 // KIND: falcon (FILE: firmware), wooden_haptics (FILE: settings), space_mouse, haply, touch, force_dimension.
 // SCENARIO: run | unplug | replug | replug_close | sigint | sigterm | sigkill | sigstop | denied, or push: until it is
-// ended from without.
+// ended by a signal.
 
 #include <pthread.h>
 #include <sched.h>

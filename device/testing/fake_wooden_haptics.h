@@ -30,7 +30,7 @@ struct FakeWoodenHapticsFaults {
   double report_delay = 0;  ///< s of delay of a report
   int short_every = 0;      ///< every n-th report is cut to 5 bytes
   int drop_every = 0;       ///< every n-th report is lost
-  int garble_every = 0;     ///< every n-th report has its bytes inverted
+  int garble_every = 0;     ///< every n-th report has all its bytes changed
   bool impossible_pose = false;
   bool button_pressed = false;  ///< the calibration button, held down
   int fourth_encoder = 0;       ///< counts; a button on the stylus adds 10000

@@ -1,9 +1,9 @@
 // palpate-faults [KIND] [--json | --markdown]: plays every event of the fault table against the fake of each device, or
-// of one, and prints what remains in the hand. `palpate devices --faults` runs it. 1 if a goal is missed. --markdown
-// prints the table of plugin/docs/safety.md.
+// of one, and prints the force that remains in the hand. `palpate devices --faults` runs it. Exit code 1 if a goal is
+// missed. --markdown prints the table of plugin/docs/safety.md.
 //
-// palpate-faults --random COUNT [SEED]: plays as many random sequences of events, of this seed and the next ones.
-// Prints the seed of each that breaks a law; 1 if one does.
+// palpate-faults --random COUNT [SEED]: plays this many random sequences of events, with consecutive seeds. Prints each
+// seed that breaks a law; exit code 1 if one does.
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

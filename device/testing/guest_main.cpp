@@ -1,8 +1,8 @@
-// Inside a virtual machine, as root: plugs the fake devices into the kernel's USB and HID stack, one after the other,
-// and lets an unmodified client have each of them.
+// Runs as root in a virtual machine: plugs the fake devices into the kernel's USB and HID stack, one after the other,
+// and runs an unmodified client on each.
 //   device_guest CLIENT plain | udev [WORD]
-// udev: with a udevd that has palpate's rules, for a user who is in plugdev. WORD: only scenarios with it in their
-// names. Prints "N of N scenarios hold".
+// udev: with a udevd that has palpate's rules, for a user in plugdev. WORD: only scenarios with it in their names.
+// Prints "N of N scenarios hold".
 
 #include <sys/stat.h>
 

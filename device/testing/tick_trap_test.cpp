@@ -1,4 +1,4 @@
-// What no servo tick may do: allocate, free, lock, or call the system.
+// Operations forbidden in a servo tick: allocations, frees, locks and system calls.
 
 #include <gtest/gtest.h>
 #include <sys/syscall.h>

@@ -1,6 +1,6 @@
 // Plays the fake devices to an unmodified client through libumockdev: the real libusb and hidapi run in the client.
 //   umockdev-wrapper device_umockdev CLIENT KIND SCENARIO
-// Ends with 0 when the client did what its scenario says and the last force that the fake saw is zero.
+// Exit code 0 if the client does what its scenario requires and the last force at the fake is zero.
 
 #include <umockdev.h>
 

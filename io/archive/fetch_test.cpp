@@ -1,4 +1,4 @@
-// Fetch from a real archive, by move and by get: what comes, where it lies, and within which limits.
+// Fetches from a real archive, by C-MOVE and C-GET: contents, folders and limits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What is found has an order and words of its own, in whatever order the archive answers.
+// Search results have a fixed order and texts, whatever the order of the archive's answers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

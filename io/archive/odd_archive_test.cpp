@@ -1,4 +1,4 @@
-// What is said and left behind when an archive misbehaves: testing/odd_archive_main.cpp, a program of its own.
+// Messages and leftovers when an archive misbehaves: testing/odd_archive_main.cpp, a program of its own.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

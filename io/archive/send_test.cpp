@@ -1,4 +1,4 @@
-// Send to a real archive: what DCMTK's own program then finds there.
+// Sends to a real archive, and checks the result with DCMTK's own program.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

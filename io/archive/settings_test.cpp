@@ -1,4 +1,4 @@
-// What an archive's settings may be: at their limits, and character by character.
+// Valid settings of an archive: at their limits, and character by character.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,5 @@
-// Archives on a slow line. An object may take longer than the silence that is allowed, as long as pieces of it go on.
+// Archives on a slow connection: an object may take longer than the allowed silence, as long as pieces of it keep
+// coming.
 
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.

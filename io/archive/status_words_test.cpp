@@ -1,4 +1,5 @@
-// Statuses in words, by the tables of the standard, at both ends of each range; and what of a peer's text is shown.
+// Statuses in words, by the standard's tables, at both ends of each range; and which characters of a peer's text are
+// shown.
 #include "io/archive/status_words.h"
 
 #include <gtest/gtest.h>

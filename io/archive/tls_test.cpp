@@ -1,4 +1,4 @@
-// TLS with a real archive, and with a program that shows a certificate alone.
+// TLS with a real archive, and with a program that only presents a certificate.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What goes over the wire, by the standard: an archive that speaks DICOM byte by byte (testing/odd_archive_main.cpp)
-// prints what it is asked and how it is left.
+// Our messages on the wire against the standard: an archive that speaks DICOM byte by byte
+// (testing/odd_archive_main.cpp) prints its requests and how the association ends.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What DCMTK gets to see of a header, and what of it the reader asks for.
+// Which parts of a header DCMTK parses, and which the reader uses.
 #include "io/dicom/asked_for.h"
 
 #include <dcmtk/config/osconfig.h>

@@ -1,4 +1,4 @@
-// The diffusion weighting as each maker writes it.
+// The diffusion weighting in each maker's form.
 #include "io/dicom/b_value.h"
 
 #include <dcmtk/config/osconfig.h>

@@ -1,4 +1,4 @@
-// Counts and places that no file of such a size, and no patient, can have: they cost neither time nor memory.
+// Counts and positions that are impossible for such a file or a patient are refused without costing time or memory.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcxfer.h>
 #include <gmock/gmock.h>

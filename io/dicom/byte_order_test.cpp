@@ -1,5 +1,5 @@
-// DosePixels whose bytes or signs a reader may get wrong without a word: big-endian words of 32 bits, bytes in words of
-// 16, and unsigned slices among signed ones.
+// Byte orders and signs that a reader can get wrong silently: big-endian 32-bit words, bytes in 16-bit words, and
+// unsigned slices among signed ones.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gtest/gtest.h>

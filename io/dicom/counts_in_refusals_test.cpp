@@ -1,4 +1,4 @@
-// A refusal that counts: what is there comes first, then what is needed.
+// The order of numbers in a refusal: first the present count, then the required one.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gmock/gmock.h>

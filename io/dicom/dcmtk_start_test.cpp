@@ -1,4 +1,4 @@
-// DCMTK without its data dictionary: said at the start, and not after what it cannot name has been read as unknown.
+// DCMTK without its data dictionary: refused at the start, before attributes are read as unknown.
 #include "io/dicom/dcmtk_start.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Deflated image frames (PS3.5 A.4.13): each frame by itself, as RFC 1951 has it. A frame of an odd number of bytes may
-// have been padded by one before.
+// Deflated image frames (PS3.5 A.4.13): each frame is a separate RFC 1951 stream. A stream of an odd number of bytes
+// may be padded by one.
 #include <zlib.h>
 
 #include <new>

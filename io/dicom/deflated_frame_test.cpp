@@ -1,4 +1,4 @@
-// Frames that are deflated each by itself (1.2.840.10008.1.2.8.1, PS3.5 A.4.13), packed here by zlib.
+// Separately deflated frames (1.2.840.10008.1.2.8.1, PS3.5 A.4.13), packed here with zlib.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// How many pixels so many bytes may hold, and how much may be inflated: the limits themselves.
+// The limits on pixels for a number of bytes, and on the size after inflating.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gtest/gtest.h>

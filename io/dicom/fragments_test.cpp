@@ -1,4 +1,4 @@
-// Fragments of compressed pixels, written item by item (PS3.5 A.4): how frames are told apart.
+// Fragments of compressed pixels, written item by item (PS3.5 A.4): how they are divided into frames.
 #include "io/dicom/fragments.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-/// Series whose every number is known, since they are written here by formula: what truth_test.cpp holds real scans to,
-/// for every checkout. Each voxel, its place and what is said of the series is compared.
+/// Series written here by formula, so that every number is known: truth_test.cpp's checks on real scans, for every
+/// checkout. Each voxel, its position and the series' description are compared.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What fits together in one series, and what is said of it, each up to its limit and beyond.
+// Which images form one series, and the messages about it, on both sides of each limit.
 #include "io/dicom/grouping.h"
 
 #include <gmock/gmock.h>

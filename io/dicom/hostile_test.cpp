@@ -1,4 +1,5 @@
-// Files that lie, end early or were made to hurt: the reader names them, quickly, and allocates by what is there.
+// Files that are damaged, truncated or malicious: the reader refuses them quickly, and allocates no more than their
+// bytes justify.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-// What is deflated is limited as what comes out of it.
+// The limits on the size after inflating.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <zlib.h>

@@ -1,5 +1,5 @@
-// Several acquisitions in one series, whose slices lie between each other's: never one volume of all. The truth is what
-// was written: which slice of which stack holds which value.
+// Several acquisitions in one series with interleaved slices are never read as one volume. The truth is what was
+// written: which slice of which stack holds which value.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What is read of a JPEG stream before it is decoded, byte by byte: ISO 10918-1 annex B.
+// Reading a JPEG stream's markers before decoding, byte by byte: ISO 10918-1 annex B.
 #include <gtest/gtest.h>
 
 #include <cstddef>

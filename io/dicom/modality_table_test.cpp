@@ -1,5 +1,5 @@
-// Modality look-up tables (PS3.3 C.11.1): where they begin, signed or not, and those that cannot be right; and who a
-// scan is of.
+// Modality look-up tables (PS3.3 C.11.1): their first value, signed or not, and invalid ones; and the identity of a
+// scan.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gtest/gtest.h>

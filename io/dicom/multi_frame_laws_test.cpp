@@ -1,4 +1,4 @@
-// Files of several frames: what tells the frames of one place apart, and that each frame has its own pixels.
+// Files of several frames: what distinguishes frames at one position, and that each frame has its own pixels.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <gmock/gmock.h>

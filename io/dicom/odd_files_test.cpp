@@ -1,5 +1,5 @@
-// What scanners, archives and anonymisers do that is legal or common, and that a reader may get wrong without a word:
-// how files are written.
+// Legal or common habits of scanners, archives and anonymizers that a reader can get wrong silently: the encoding of
+// files.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// What scanners, archives and anonymisers do that is legal or common, and that a reader may get wrong without a word:
-// where images lie.
+// Legal or common habits of scanners, archives and anonymizers that a reader can get wrong silently: the positions of
+// images.
 #include <dcmtk/config/osconfig.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

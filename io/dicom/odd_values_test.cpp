@@ -1,5 +1,4 @@
-// What scanners, archives and anonymisers do that is legal or common, and that a reader may get wrong without a word:
-// the values.
+// Legal or common habits of scanners, archives and anonymizers that a reader can get wrong silently: the values.
 #include <dcmtk/config/osconfig.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

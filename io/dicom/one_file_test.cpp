@@ -1,4 +1,4 @@
-// Stacks that lie in one another within a single file: told apart by what their frames are, as files are.
+// Interleaved stacks within a single file are separated by their frames' labels, as they are between files.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gtest/gtest.h>

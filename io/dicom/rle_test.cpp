@@ -1,5 +1,5 @@
-// Run lengths of PS3.5 annex G, packed here by hand: each kind of code at its shortest and its longest, and what a
-// decoder has to pass over or to refuse.
+// Run lengths of PS3.5 annex G, packed here by hand: each type of code at its shortest and longest, and input that a
+// decoder must skip or refuse.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Where images become one stack, several, or frames of one: each limit from both sides, of images that are nothing but
-// places and labels.
+// When images form one stack, several, or frames of one: both sides of each limit, on images that have only positions
+// and labels.
 #include "io/dicom/stack_parts.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Multi-frame files that say where their frames lie in other ways than by functional groups.
+// Multi-frame files that give the positions of their frames without functional groups.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcuid.h>

@@ -1,5 +1,5 @@
-// Laws of slices in order, on planes that are oblique and skewed, with pixels that are not square: which stacks are
-// even, where slices are missing and what is said of it, each up to its limit and beyond.
+// Laws of ordered slices, on oblique and skewed planes with pixels that are not square: evenness, missing slices and
+// their messages, on both sides of each limit.
 #include "io/dicom/stacking.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Series that a reader may tear apart, or close over what is missing: digits that jitter, a patient who is named in
-// some files, times that lack slices.
+// Series that a reader may split wrongly, or join over missing parts: jittering digits, a patient named only in some
+// files, time points that lack slices.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

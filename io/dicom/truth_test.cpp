@@ -1,4 +1,4 @@
-// Every folder of real series against what pydicom and numpy read in it.
+// Every folder of real series against the results of pydicom and numpy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

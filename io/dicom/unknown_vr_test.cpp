@@ -1,5 +1,5 @@
 // Attributes that an archive wrote with the VR UN because it did not know them (PS3.5 6.2.2): the values are those of
-// the same file with their own VRs.
+// the same file with its own VRs.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcostrmb.h>
 #include <dcmtk/dcmdata/dcsequen.h>

@@ -1,4 +1,4 @@
-// Pixels that are no 16-bit integers, and values that no slope and intercept give.
+// Pixels that are not 16-bit integers, and values that do not follow from slope and intercept.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <gmock/gmock.h>

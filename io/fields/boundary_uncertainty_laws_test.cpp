@@ -1,5 +1,5 @@
-/// Each number of a boundary's uncertainty, of values that mathematics gives, on grids that are oblique, tilted and not
-/// square. boundary_uncertainty_test.cpp tells whether the numbers together hold the truth.
+/// Each part of a boundary's uncertainty, for analytic values on grids that are oblique, tilted and not square.
+/// boundary_uncertainty_test.cpp checks that all parts together cover the truth.
 
 #include <gtest/gtest.h>
 

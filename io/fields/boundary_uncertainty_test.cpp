@@ -1,4 +1,4 @@
-// What is said of a boundary's place, against phantoms whose surfaces are known.
+// The stated uncertainty of a boundary, against phantoms with known surfaces.
 #include "io/fields/boundary_uncertainty.h"
 
 #include <gtest/gtest.h>

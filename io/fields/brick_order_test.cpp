@@ -1,4 +1,4 @@
-// Which bricks come first, which give way, and how many there are: against the distances themselves.
+// The order in which bricks are filled and evicted, and their number, against the distances themselves.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How much of a B-spline there is along each axis, and values and gradients whatever steps they are stored in.
+// The B-spline's part along each axis, and values and gradients for any rescale slope.
 #include "io/fields/cubic_spline.h"
 
 #include <gtest/gtest.h>

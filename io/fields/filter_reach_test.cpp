@@ -1,4 +1,4 @@
-// How far a Gaussian reaches across slices, and what a filtered scan says of its patient.
+// The reach of a Gaussian across slices, and the metadata of a filtered scan.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Filters of values of any size, and of what is no number.
+// Filters of values of any size, and of NaN and infinity.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The whole-volume gradient against OpenCV's separable filters: an implementation of the same filter by others.
+// The whole-volume gradient against OpenCV's separable filters, an independent implementation.
 #include <gtest/gtest.h>
 
 #include <cmath>

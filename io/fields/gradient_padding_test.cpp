@@ -1,4 +1,4 @@
-// Gradients beside padding of any shape: the same bits by every way, and those of a plain sum over the neighborhood.
+// Gradients beside padding of any shape: the same bits by all methods, and equal to a plain sum over the neighborhood.
 #include <gtest/gtest.h>
 
 #include <algorithm>

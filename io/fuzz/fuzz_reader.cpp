@@ -1,9 +1,9 @@
-// libFuzzer's way into the reader: the bytes are a file, or several with "<next>" between them; headers are read and
-// every image in them decoded; structures are looked for, decoded and measured. A file's name is what its first
-// bytes ask for. Built and run by io/fuzz/run.
+// libFuzzer's entry to the reader. The bytes are one file, or several separated by "<next>". Headers are read and every
+// image in them decoded; structures are searched, decoded and measured. The first bytes determine a file's name. Built
+// and run by io/fuzz/run.
 //
-// DCMTK asks for as many bytes as an element claims (up to 4 GiB) before it finds that they are not there. It touches
-// none of them and takes a refusal well; that is what the second limit is for. The first one holds for memory in use.
+// DCMTK allocates as many bytes as an element claims (up to 4 GiB) before it finds that they are missing. It touches
+// none of them and handles a refusal well; the second limit is for that. The first limit is on memory in use.
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Writes small segmentations and scans in rare forms for the reader's fuzzer to begin with: write_seeds FOLDER
+// Writes small segmentations and scans in rare forms as seeds for the reader's fuzzer: write_seeds FOLDER
 #include <zlib.h>
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What NIfTI, NRRD and MetaImage have in common: what a series of them says, beside DICOM, as labels, and damaged.
+// Common to NIfTI, NRRD and MetaImage: their series, their place beside DICOM, labels, and damaged files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

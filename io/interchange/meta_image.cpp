@@ -1,4 +1,4 @@
-// MetaImage, as ITK reads it: its world is LPS, mm, and its TransformMatrix holds a row an axis of the file.
+// MetaImage as in ITK: its world is LPS, mm, and its TransformMatrix has a row for each axis of the file.
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// MetaImage: every voxel where its matrix puts it, packed or not, in one file or in two.
+// MetaImage: every voxel at the position of its matrix, packed or not, in one file or in two.
 #include <gtest/gtest.h>
 
 #include "io/testing/file_bytes.h"

@@ -1,4 +1,4 @@
-// Forms of NIfTI, NRRD and MetaImage that are rarer: each voxel where the standard's own words put it, with its value.
+// Rare forms of NIfTI, NRRD and MetaImage: each voxel at the position that the standard defines, with its value.
 #include <archive.h>
 #include <archive_entry.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// NIfTI-1: every voxel where the standard's own formulas put it, in the programs' LPS.
+// NIfTI-1: every voxel at the position of the standard's formulas, in LPS.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

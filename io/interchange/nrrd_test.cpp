@@ -1,4 +1,4 @@
-// NRRD: every voxel where its directions put it, from each space that names its axes.
+// NRRD: every voxel at the position of its directions, for each space with named axes.
 #include <gtest/gtest.h>
 
 #include "io/testing/file_bytes.h"

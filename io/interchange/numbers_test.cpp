@@ -1,5 +1,5 @@
-// Every type of number that the three formats have a word for, in both orders of bytes: its least and its largest
-// values, which tell its size and its sign apart from those of all others.
+// Every type of number in the three formats, in both byte orders: its least and largest values, which together identify
+// size and sign.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
-// What other formats' headers may say that a reader could pass over without a word: places a thousandfold off, a
-// header's rest read as values, damage that only a checksum knows.
+// Headers of other formats that a reader can get wrong silently: positions a thousandfold off, the rest of a header
+// read as values, damage that only a checksum reveals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

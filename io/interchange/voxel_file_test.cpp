@@ -1,4 +1,4 @@
-// Which lattices are held and which are refused, up to the last voxel that may be and the first that may not.
+// Accepted and refused lattices, on both sides of each limit.
 #include "io/interchange/voxel_file.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Label maps as NIfTI-1, NRRD and MetaImage have them: what nifti.cpp, nrrd.cpp and meta_image.cpp read.
+// Label maps as NIfTI-1, NRRD and MetaImage, which nifti.cpp, nrrd.cpp and meta_image.cpp can read.
 
 #include <fmt/format.h>
 #include <zlib.h>

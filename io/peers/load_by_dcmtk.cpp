@@ -1,5 +1,5 @@
-// load_by_dcmtk FOLDER: what a program gets from DCMTK alone, one file after the other: decode, sort by position,
-// rescale, minimum, maximum and mean. A yardstick for `palpate-bench load`; for sound, plain series only.
+// load_by_dcmtk FOLDER: loading with DCMTK alone, one file after the other: decode, sort by position, rescale, minimum,
+// maximum and mean. For comparison in `palpate-bench load`; only for intact, plain series.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
 #include <dcmtk/dcmdata/dcfilefo.h>

@@ -1,5 +1,5 @@
-// load_by_gdcm FOLDER: what a program gets from GDCM: Directory, IPPSorter and ImageReader, one file after the other,
-// with minimum, maximum and mean. A yardstick for `palpate-bench load`; for sound, plain series only.
+// load_by_gdcm FOLDER: loading with GDCM: Directory, IPPSorter and ImageReader, one file after the other, with minimum,
+// maximum and mean. For comparison in `palpate-bench load`; only for intact, plain series.
 #include <gdcmDirectory.h>
 #include <gdcmIPPSorter.h>
 #include <gdcmImageReader.h>

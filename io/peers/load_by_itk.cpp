@@ -1,5 +1,5 @@
-// load_by_itk FOLDER: what a program gets from ITK: GDCMSeriesFileNames and ImageSeriesReader, with minimum, maximum
-// and mean. A yardstick for `palpate-bench load`; for sound, plain series only.
+// load_by_itk FOLDER: loading with ITK: GDCMSeriesFileNames and ImageSeriesReader, with minimum, maximum and mean. For
+// comparison in `palpate-bench load`; only for intact, plain series.
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImage.h>

@@ -1,5 +1,5 @@
-// load_by_palpate FOLDER: find_series(), load() and statistics() and no more, as the peers beside it do with their
-// libraries. What `palpate-bench load` compares.
+// load_by_palpate FOLDER: only find_series(), load() and statistics(), to be compared with the other libraries in
+// `palpate-bench load`.
 #include <array>
 #include <cstdio>
 #include <filesystem>

@@ -1,6 +1,5 @@
-// Written outlines as other programs read them: dciodvfy (whether they are legal DICOM), pydicom, nibabel and
-// plastimatch (by ITK). None of them has code in common with the writers or the reader here, but for DCMTK, by which
-// plastimatch reads contours.
+// Written outlines as read by other programs: dciodvfy (validity as DICOM), pydicom, nibabel and plastimatch (with
+// ITK). They share no code with our writers and reader, except DCMTK, with which plastimatch reads contours.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Every value that reports and pictures say, against the standard's codes and what was put in; read with DCMTK alone.
+// Every value in reports and pictures, against the standard's codes and the input; read with DCMTK alone.
 
 #include <dcmtk/config/osconfig.h>
 // DCMTK's configuration comes first.

@@ -1,5 +1,5 @@
-// Outlines as DICOM, read back by the reader here and by DCMTK alone. Other programs look at them in
-// outline_peers_test.cpp.
+// Outlines as DICOM, read back by our reader and by DCMTK alone. outline_peers_test.cpp checks them with other
+// programs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Places of segments, contours and registrations that no patient can have: refused in words, before anything is
-// computed of them. Within the bound, the same outline is felt anywhere.
+// Positions of segments, contours and registrations that are impossible for a patient: refused in words, before any
+// computation. Within the bound, the same outline is felt anywhere.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Closest points of surfaces that mathematics knows, on lattices with another spacing along each axis.
+// Closest points on analytic surfaces, on lattices with a different spacing along each axis.
 #include <gtest/gtest.h>
 
 #include <algorithm>

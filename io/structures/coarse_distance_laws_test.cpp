@@ -1,4 +1,4 @@
-// Distances far from a surface, on their coarse lattice: against bodies whose distance is known.
+// Distances far from a surface, on their coarse lattice, against bodies with a known distance.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What goes to the lattice of every second node and back, where bricks are missing too.
+// Transfer to the lattice of every second node and back, with missing bricks, too.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Colors that go into CIELAB and come back: by the standards' own formulas, forward here and backward in the program.
+// Colors converted to CIELAB and back: by the standards' formulas, forwards here and backwards in the program.
 #include "io/structures/color.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Balls and shells, whose distances, volumes and areas are known by formulas. Outlines that other programs compare,
-// too: plugin/cli/command_compare_structures_test.cpp.
+// Balls and shells, with distances, volumes and areas known by formulas. plugin/cli/command_compare_structures_test.cpp
+// checks with other programs.
 
 #include "io/structures/compare_outlines.h"
 

@@ -1,5 +1,5 @@
-// Contours as files have them: at heights that rounding once cut in two, in a time that grows with their points, and
-// as thick as the file, its other ROIs or the scan say.
+// Contours in files: at heights that rounding once split into two planes, in a time proportional to their points, and
+// with the thickness given by the file, its other ROIs or the scan.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>

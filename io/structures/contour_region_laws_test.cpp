@@ -1,4 +1,5 @@
-/// What contours of one plane fill, however they meet: rectangles and circles whose areas and distances are known.
+/// The region filled by contours of one plane in any arrangement: rectangles and circles with known areas and
+/// distances.
 
 #include "io/structures/contour_region.h"
 

@@ -1,5 +1,5 @@
-/// Contours of one plane stay together at any height and obliquity, whatever their points, orders and windings; and
-/// what is said of planes that lie unevenly or alone. Truth: areas of regular polygons.
+/// Contours of one plane stay together at any height and obliquity, for any points, orders and windings; and the
+/// messages about uneven or single planes. Truth: areas of regular polygons.
 
 #include <gtest/gtest.h>
 

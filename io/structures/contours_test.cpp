@@ -1,4 +1,4 @@
-// Contours written by DCMTK: what is measured of them, and what is refused in words.
+// Contours written by DCMTK: their measures, and refusals in words.
 #include "io/structures/structure.h"
 
 #include <dcmtk/config/osconfig.h>

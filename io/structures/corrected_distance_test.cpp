@@ -1,5 +1,5 @@
-// How near to the truth a spoilt outline comes when a trembling hand traces the true edge: bodies whose distance is
-// known exactly, errors of every kind, seeded directions and hands, voxels of 1 mm.
+// How near to the truth a falsified outline comes when a trembling hand traces the true edge: bodies whose distance is
+// known exactly, errors of every type, seeded directions and hands, voxels of 1 mm.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Distances beyond all that is kept of them.
+// Distances outside the stored region.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>

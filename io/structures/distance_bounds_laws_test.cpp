@@ -1,5 +1,5 @@
 // Bounds of the distance at every node, against the definition: the nearest node of any plane that is known to be
-// inside or outside, found by looking at all of them.
+// inside or outside, found by exhaustive search.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Distances of bodies whose distance is known.
+// Distances of bodies with a known distance.
 #include "io/structures/distance_field.h"
 
 #include <gtest/gtest.h>

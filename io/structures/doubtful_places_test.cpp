@@ -1,5 +1,4 @@
-// Outlines that are spoilt in a known way, on scans whose edges mathematics knows: what is spoilt is found, and what is
-// found is spoilt.
+// Outlines with known errors, on scans with analytic edges: every error is found, and nothing else.
 #include "io/structures/doubtful_places.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The law that no part of a structure appears or goes that an edit does not touch, over seeded edits.
+// The law that an edit makes no part of a structure that it does not touch appear or vanish, over seeded edits.
 #include <gtest/gtest.h>
 
 #include <algorithm>

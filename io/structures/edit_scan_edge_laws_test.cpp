@@ -1,5 +1,5 @@
 // Laws of scan_edge over seeded bodies, errors of their outlines and scans with noise: round, thin, in parts, beside a
-// neighbor, with a side where the scan has no edge.
+// neighbor, and with a side where the scan has no edge.
 #include <gtest/gtest.h>
 
 #include <algorithm>

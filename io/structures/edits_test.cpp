@@ -1,4 +1,4 @@
-// What an edit refuses, in words; and those that need the scan or have no structure yet.
+// The edits that are refused, in words; and those that need the scan or have no structure yet.
 #include "io/structures/edits.h"
 
 #include <gtest/gtest.h>

@@ -60,23 +60,24 @@ struct Patch {
   Vec3 patient_of(const Vec3f& at) const { return bricks.lattice.origin + bricks.lattice.axes * Vec3(at); }
 };
 
-/// The box of bricks within `around_mm` of the stretches, and which of them lie within the change.
+/// The box of bricks within `around_mm` of the stretches, with those inside the change marked.
 Patch patch_around(const DistanceParts& old, const FieldChange& change, double around_mm);
 
-/// Evaluates the bricks within the change, and lists those that are measured anew: all within `around_mm` of one that
-/// the surface passes, before or after, and by so far of where it moves. Returns false if it passes none.
+/// Evaluates the bricks within the change, and selects those to be measured again: all within `around_mm` of a brick
+/// that the old or new surface crosses, and within the same distance of the moved part. Returns false if the surface
+/// crosses none.
 bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char>& passed);
 
 /// Measures the distance in these bricks.
 void measure_anew(Patch& patch, const std::vector<char>& passed, int threads);
 
-/// The measured distance at a place, as the field will be read once it is stored.
+/// The measured distance at a place, as the stored field will give it.
 double measured_at(const Patch& patch, const Vec3& place_mm);
 
-/// Adds bumps, one for each stretch of the change, wherever the distance was measured anew.
+/// Adds bumps, one for each stretch of the change, wherever the distance was measured again.
 void add_to_measured(Patch& patch, const RadialBumps& bumps, int threads);
 
-/// The field with the changed bricks in the place of those before. Throws InvalidInput if none is left.
+/// The field with the changed bricks in place of the old ones. Throws InvalidInput if none is left.
 DistanceParts stored(const Patch& patch, int threads);
 
 }  // namespace palpate::io::internal

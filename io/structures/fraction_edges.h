@@ -4,8 +4,8 @@
 
 namespace palpate::io {
 
-/// The distance of a voxel's center from the edge, mm, positive inside, by the fractions of this voxel and of those
-/// around it. NaN if they do not tell it (no fraction, or no edge beside it). The index is of the whole lattice;
+/// The distance of a voxel's center from the edge, mm, positive inside, from the fractions of this voxel and its
+/// neighbors. NaN if they do not determine it (no fraction, or no edge nearby). The index is of the whole lattice;
 /// voxels beyond the lattice count as those at its edge.
 float edge_distance(const Mask& mask, int i, int j, int k);
 

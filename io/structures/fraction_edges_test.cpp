@@ -1,4 +1,5 @@
-// The place of an edge within a voxel, by the fractions around it: against the formulas, on voxels that are no cubes.
+// The position of an edge within a voxel, from the fractions around it: against the formulas, on voxels that are not
+// cubes.
 #include "io/structures/fraction_edges.h"
 
 #include <gtest/gtest.h>

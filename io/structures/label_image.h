@@ -34,7 +34,7 @@ struct StructureLabel {
   std::string color;                      ///< "#rrggbb", or empty
   Code category, type;                    ///< SegmentedPropertyCategory and -Type; without a value if unknown
   std::vector<Code> modifiers;            ///< of the type: "Right", ...
-  std::string tracking_id, tracking_uid;  ///< the lesion's or organ's, through all of its outlines; or empty
+  std::string tracking_id, tracking_uid;  ///< of the lesion or organ, the same in all of its outlines; or empty
   std::string interpreted_type;           ///< RTROIInterpretedType: "ORGAN", "PTV", ...; or empty
 
   /// The file and the object in it that was corrected; without an instance if it is not DICOM.
@@ -46,8 +46,8 @@ struct StructureLabel {
   std::optional<Origin> origin;
 };
 
-/// Label of a structure that was found. Reads its file's header. Throws DicomError if that cannot be read. One
-/// without a file has its name and color alone.
+/// The label of a structure that was found. Reads its file's header. Throws DicomError if that cannot be read. Without
+/// a file it has only name and color.
 StructureLabel label_of(const Structure& structure);
 
 /// A structure on a scan's grid, which may be oblique, tilted or uneven.
@@ -89,12 +89,12 @@ SliceContours trace_slices(StructureLabel label, const Geometry& scan, const Sig
 struct WriteOptions {
   bool overwrite = false;        ///< an existing file; never the one that was corrected
   std::string software_version;  ///< Palpate's
-  int frame = 0;                 ///< of the series (frames_per_position): the one that was corrected on
+  int frame = 0;                 ///< of the series (frames_per_position): the frame of the correction
 };
 
 /// DICOM Segmentation, BINARY and SEMIAUTOMATIC, with a frame for each slice from the structure's first to its last
-/// one. It goes into the study of the scan, as a series of its own, and refers to the images of these slices and to
-/// what was corrected.
+/// one. It belongs to the study of the scan, as a series of its own, and refers to the images of these slices and to
+/// the corrected object.
 ///
 /// This and all other writers write whole files or nothing. They throw DicomError if the structure is empty, the
 /// file exists or cannot be written, or the format cannot hold the structure.
@@ -105,8 +105,8 @@ void write_segmentation(const LabelImage& image, const Series& scan, const std::
 void write_contours(const SliceContours& contours, const Series& scan, const std::filesystem::path& file,
                     const WriteOptions& options);
 
-/// A label map of the format that the file's name says (label_formats()). It holds one vector from a slice to the next:
-/// a scan with uneven slices is refused.
+/// A label map in the format of the file's name (label_formats()). It has a single step between slices, so a scan with
+/// uneven slices is refused.
 void write_label_map(const LabelImage& image, const std::filesystem::path& file, const WriteOptions& options);
 
 /// The kind of object that a file's name asks for.
@@ -116,8 +116,8 @@ enum class StructureForm : std::uint8_t { segmentation, contours, label_map };
 /// those above, and if `rtstruct` does not fit.
 StructureForm form_of(const std::filesystem::path& file, bool rtstruct);
 
-/// Samples or traces the structure and writes it in that form. `scan`: the series, and the geometry of the frame that
-/// was corrected on.
+/// Samples or traces the structure and writes it in that form. `scan`: the series; `geometry`: of the frame of the
+/// correction.
 void write_structure(const StructureLabel& label, const Series& scan, const Geometry& geometry,
                      const SignedDistance& distance, const std::optional<StructureBox>& within, StructureForm form,
                      const std::filesystem::path& file, const WriteOptions& options, const Progress& progress = {});

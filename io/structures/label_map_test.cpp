@@ -1,5 +1,4 @@
-// Label maps that are no DICOM: where they lie by the standards' own formulas, what they are called, and what is
-// refused.
+// Label maps that are not DICOM: their positions by the standards' formulas, their names, and refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

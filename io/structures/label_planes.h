@@ -7,8 +7,8 @@
 
 namespace palpate::io {
 
-/// The mask must outlive the planes. `reach_mm`: how far from the surface the field must be exact. Slices
-/// that are tilted or unevenly spaced are put on the nearest nodes: a quarter of a voxel away at most.
+/// The mask must outlive the planes. `reach_mm`: how far from the surface the field must be exact. Tilted or unevenly
+/// spaced slices are moved to the nearest nodes, by at most a quarter of a voxel.
 OutlinePlanes planes_of(const Mask& mask, double reach_mm);
 
 }  // namespace palpate::io

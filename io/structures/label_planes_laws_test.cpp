@@ -1,5 +1,5 @@
-// What a mask becomes before a surface is laid through it, on lattices that are oblique, tilted, uneven and not square
-// at once: which node each voxel is, and how far every node is from the nearest voxel inside and outside.
+// The planes of a mask, on lattices that are at once oblique, tilted, uneven and not square: the node of each voxel,
+// and the distance of every node from the nearest voxel inside and outside.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 
 namespace palpate::io {
 
-/// Only the box that holds the structure is kept; all else is outside.
+/// Only the box around the structure is stored; everything else is outside.
 struct Mask {
   /// The occupancy of a voxel that is wholly inside. A voxel with half of it or more counts as inside.
   static constexpr std::uint8_t full = 254;
@@ -20,12 +20,12 @@ struct Mask {
   Geometry geometry;                    ///< of the whole lattice
   glm::ivec3 low{0};                    ///< first voxel of the box
   glm::ivec3 size{0};                   ///< voxels of the box
-  std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: how much of a voxel is inside, 0 to full
+  std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: the fraction inside, 0 to full
   /// The meaning of values of `occupancy` between 0 and full. They give the place of the edge within a voxel.
   enum class Fractions : std::uint8_t {
     none,
-    probability,  ///< probability of being inside: the edge is where one half is reached between voxels
-    occupancy     ///< part of the voxel that is inside
+    probability,  ///< probability of being inside: the edge is at one half, interpolated between voxels
+    occupancy     ///< fraction of the voxel that is inside
   } fractions = Fractions::none;
 
   std::size_t offset(int i, int j, int k) const noexcept {

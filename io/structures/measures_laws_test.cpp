@@ -1,4 +1,4 @@
-/// Measures of structures against sums and formulas of their own, on lattices and planes that are oblique, tilted,
+/// Measures of structures against independent sums and formulas, on lattices and planes that are oblique, tilted,
 /// uneven and not square.
 
 #include <gtest/gtest.h>

@@ -11,17 +11,17 @@
 
 namespace palpate::io {
 
-/// A box that holds all places at which these edits can move the edge; none if there are none.
+/// A box that contains all places at which these edits can move the edge; none if there are none.
 std::optional<StructureBox> box_of_edits(std::span<const Edit> edits);
 
 struct OutlineChange {
   double added_mm3 = 0, removed_mm3 = 0;
-  double largest_mm = 0;  ///< from a point of one surface to the other surface, at most
-  Vec3 largest_at_mm{0};  ///< the point that has it
+  double largest_mm = 0;  ///< largest distance from a point of one surface to the other surface
+  Vec3 largest_at_mm{0};  ///< the point with that distance
 };
 
-/// Within a box, on a lattice of 1 mm, or coarser where the box is large. Both fields have to be true distances as far
-/// as the edge has moved; farther away the largest change is that of their coarse lattice.
+/// Compares within a box, on a lattice of 1 mm, or a coarser one if the box is large. Both fields must be true
+/// distances as far as the edge has moved; farther away the largest change is that of their coarse lattice.
 OutlineChange outline_change(const DistanceField& before, const DistanceField& after, const StructureBox& box);
 
 }  // namespace palpate::io

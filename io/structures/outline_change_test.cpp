@@ -1,4 +1,4 @@
-// What is told of a correction, against balls whose caps a formula gives.
+// The reported change of a correction, against balls with caps of a known size.
 #include "io/structures/outline_change.h"
 
 #include <gtest/gtest.h>

@@ -12,14 +12,14 @@
 namespace palpate::io {
 
 struct OutlinePart {
-  bool is_hole = false;   ///< outside of the structure, and wholly enclosed by it
+  bool is_hole = false;   ///< outside the structure, and wholly enclosed by it
   double volume_mm3 = 0;  ///< of the nodes' cells in it
-  Vec3 deepest_mm{0};     ///< the place farthest from the surface, and how far it is from there
+  Vec3 deepest_mm{0};     ///< the place farthest from the surface, and its distance
   double depth_mm = 0;
 };
 
-/// All parts, by volume, the largest first. Nodes are joined along the lattice's axes. `of_place`, if asked
-/// for, tells for each of `places` the part whose surface it lies on; a hole's surface is its own, not the structure's
+/// All parts, by volume, the largest first. Nodes are connected along the lattice's axes. `of_place`, if given, gets
+/// for each of `places` the part with that surface; the surface of a hole belongs to the hole, not to the structure
 /// around it.
 std::vector<OutlinePart> outline_parts(const DistanceField& field, const std::vector<OutlinePlace>& places = {},
                                        std::vector<std::size_t>* of_place = nullptr);

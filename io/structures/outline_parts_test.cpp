@@ -1,4 +1,4 @@
-// Parts and holes of bodies that a formula gives: how many there are and how large.
+// Parts and holes of analytic bodies: their number and size.
 #include "io/structures/outline_parts.h"
 
 #include <gtest/gtest.h>

@@ -21,19 +21,19 @@ struct PlaneDistances {
 
   std::vector<float> to_inside;
   std::vector<float> to_outside;
-  /// The distance of a node from the edge where the outline itself gives it (fractions): mm, positive inside; NaN
+  /// The distance of a node from the edge if the outline itself gives it (fractions): mm, positive inside; NaN
   /// elsewhere. Empty if the outline never gives it.
   std::vector<float> known;
 };
 
 struct OutlinePlanes {
   NodeLattice lattice;
-  std::vector<int> node;  ///< of each plane, ascending: which node along the third axis it lies on
-  /// A lattice of every 2^coarser-th node along each axis still holds all planes, and hardly a node between them.
+  std::vector<int> node;  ///< of each plane, ascending: its node along the third axis
+  /// The lattice of every 2^coarser-th node along each axis still contains all planes, and hardly a node between them.
   int coarser = 0;
-  /// How far the surface may be from the nearest point that is known to be on its other side, mm.
+  /// The largest possible distance of the surface from the nearest point that is known to be on its other side, mm.
   double play_mm = 1;
-  /// How far from the surface the field has to reach, mm.
+  /// The distance from the surface up to which the field must be computed, mm.
   double band_mm = 3;
   /// Computes one plane. From any thread.
   std::function<void(std::size_t plane, PlaneDistances& distances)> compute;

@@ -1,5 +1,5 @@
-// What contours and masks become before a surface is laid through them: distances in each plane against every edge, and
-// which planes there are, on planes that lie obliquely.
+// The planes of contours and masks: distances in each plane against every edge, and which planes exist, on oblique
+// planes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Outlines that are long one way, of one plane alone, and too large; and distances kept all around a long body.
+// Elongated outlines, outlines of a single plane, and those that are too large; and distances kept all around a long
+// body.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Names and ids outside ASCII: in whatever character set a file has them, structures and registrations say the same.
+// Names and ids outside ASCII: structures and registrations give the same text in every character set.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>

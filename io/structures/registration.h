@@ -17,11 +17,11 @@ namespace palpate::io {
 
 struct Registration {
   std::filesystem::path file;
-  std::string frame_of_reference_uid;  ///< what it is registered to
+  std::string frame_of_reference_uid;  ///< the target frame
   std::string patient_id;              ///< used only for comparison; never written or shown
   struct Part {
-    std::string frame_of_reference_uid;  ///< what is registered
-    RigidMotion motion;                  ///< from that frame to the one above
+    std::string frame_of_reference_uid;  ///< the registered frame
+    RigidMotion motion;                  ///< from the registered frame to the target
     Text unfit;                          ///< why it cannot be applied; empty if it can
   };
   std::vector<Part> parts;
@@ -31,15 +31,16 @@ struct Registration {
 /// if the dataset is neither.
 std::optional<Registration> registration_in(DcmDataset& dataset, const std::filesystem::path& path);
 
-/// The motion from one frame of reference to another, or why there is none. Both empty if no registration has both.
+/// The motion from one frame of reference to another, or the reason for its absence. Both empty if no registration has
+/// both.
 struct Joined {
   std::optional<RigidMotion> motion;
   std::filesystem::path file;  ///< the registration's file
   Text why_not;
 };
 
-/// Several registrations may join them if they agree. Registrations of a patient with another id than `patient_id` are
-/// ignored.
+/// Several registrations may join the two if they agree. Registrations of a patient with an id other than `patient_id`
+/// are ignored.
 Joined join(std::span<const Registration> registrations, const std::string& from, const std::string& to,
             const std::string& patient_id);
 

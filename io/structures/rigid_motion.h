@@ -11,7 +11,7 @@ namespace palpate::io {
 
 struct RigidMotion {
   glm::dmat3 turn{1};  ///< a rotation
-  Vec3 shift{0};       ///< mm, after the turn
+  Vec3 shift{0};       ///< mm, applied after the rotation
 
   Vec3 operator()(const Vec3& position_mm) const noexcept { return turn * position_mm + shift; }
   bool operator==(const RigidMotion&) const = default;
@@ -27,9 +27,9 @@ inline RigidMotion back(const RigidMotion& motion) noexcept {
   return {turned, -(turned * motion.shift)};
 }
 
-/// The lattice, moved with all that lies on it.
+/// Moves the lattice with its contents.
 inline void move(const RigidMotion& motion, Geometry& geometry) {
-  if (motion == RigidMotion()) return;  // to the last bit as it was
+  if (motion == RigidMotion()) return;  // unchanged to the last bit
   geometry.direction_i = motion.turn * geometry.direction_i;
   geometry.direction_j = motion.turn * geometry.direction_j;
   geometry.step = motion.turn * geometry.step;

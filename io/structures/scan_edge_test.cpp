@@ -1,4 +1,4 @@
-// The scan's own edges against phantoms whose surfaces are known.
+// The scan's own edges against phantoms with known surfaces.
 #include "io/structures/scan_edge.h"
 
 #include <gtest/gtest.h>

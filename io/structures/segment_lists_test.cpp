@@ -1,5 +1,5 @@
-// What a list of segments leaves out or says too much of: thickness of one slice, segments that are not described,
-// backgrounds; and masks that have a file each.
+// Lists of segments with missing or superfluous parts: thickness of one slice, segments without a description,
+// backgrounds; and masks with a file each.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>

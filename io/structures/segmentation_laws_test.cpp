@@ -1,4 +1,4 @@
-// Segmentations against the places that their own frames say, in any orientation and any uncompressed form.
+// Segmentations against the positions of their own frames, in any orientation and any uncompressed form.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>

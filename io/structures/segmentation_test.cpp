@@ -1,4 +1,4 @@
-// Segmentations written by DCMTK, in every form they come in, and what is refused in words.
+// Segmentations written by DCMTK, in all their forms, and refusals in words.
 #include "io/structures/structure.h"
 
 #include <dcmtk/config/osconfig.h>

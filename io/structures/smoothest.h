@@ -1,10 +1,10 @@
 #pragma once
 
-/// The smoothest surface that has every voxel's center on its own side. Of all fields f that keep the signs and are the
-/// surface's own distance some way from it, the one with the least integral of (Laplacian f)^2; and then again with the
-/// distance from the surface that was found. It converges to the distance with the least bending: a ball
-/// stays a ball. Sources: Lempitsky, "Surface extraction from binary volumes with higher-order smoothness", CVPR 2010,
-/// for the signs as bounds; the distance in place of bounds far away is what keeps a surface from flattening.
+/// The smoothest surface with every voxel's center on its own side. It is found by alternation: of all fields f that
+/// keep the signs and equal the surface's distance some way from it, the one with the least integral of (Laplacian
+/// f)^2; then the distance from the surface of f. It converges to the distance with the least bending: a ball stays a
+/// ball. Sources: Lempitsky, "Surface extraction from binary volumes with higher-order smoothness", CVPR 2010, for the
+/// signs as bounds. Using the distance instead of bounds far away keeps the surface from flattening.
 
 #include <vector>
 
@@ -17,7 +17,7 @@ struct SmoothestOptions {
   /// nodes between the slices of an outline, where nothing is known.
   int coarser = 0;
   int coarse_rounds = 8;  ///< on each of them
-  int rounds = 6;         ///< how often the distance from the surface is taken anew, on the finest
+  int rounds = 6;         ///< repetitions with a new distance from the surface, on the finest
   /// Accelerated projected gradient steps in a round (Beck and Teboulle 2009, restarted as by O'Donoghue and Candes
   /// 2015).
   int steps = 60;

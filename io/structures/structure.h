@@ -35,12 +35,12 @@ struct StructureMeasures {
   std::vector<Text> warnings;
 };
 
-/// A box that holds a structure, LPS, mm: of voxel centers or contour points.
+/// A box that contains a structure, LPS, mm: around voxel centers or contour points.
 struct StructureBox {
   Vec3 low_mm{0}, high_mm{0};
 };
 
-/// Whether the box lies wholly outside the scan: none of it within a voxel of the scan's outermost voxels.
+/// Whether the box is wholly outside the scan: more than a voxel away from its outermost voxels.
 bool is_off(const StructureBox& box, const Geometry& scan);
 
 /// A file that holds structures. Immutable; from any thread.
@@ -51,11 +51,11 @@ class StructureSource {
   StructureSource& operator=(const StructureSource&) = delete;
   virtual ~StructureSource() = default;
 
-  /// Both throw DicomError if the structure cannot be read or is empty. The reason does not name the file. `scan`: the
-  /// one that it is felt with, or null.
+  /// Both functions throw DicomError if the structure cannot be read or is empty. The reason does not name the file.
+  /// `scan`: the scan to be felt with it, or null.
   virtual StructureMeasures measure(int number, const RigidMotion& motion, const Geometry* scan) const = 0;
   virtual std::shared_ptr<const DistanceField> distance(int number, const DistanceOptions& options) const = 0;
-  /// Throws as measure() does. It may be wider than the one that measure() gives, and need not decode anything.
+  /// Throws as measure() does. May be larger than the box of measure(), and need not decode anything.
   virtual StructureBox box(int number, const RigidMotion& motion) const;
 };
 

@@ -12,7 +12,7 @@ namespace palpate::io {
 
 class StructuredFields final : public FieldSource {
  public:
-  /// At most most_structures of them, and none of them null.
+  /// At most most_structures structures, none of them null.
   StructuredFields(std::shared_ptr<const FieldSource> scan,
                    std::vector<std::shared_ptr<const DistanceField>> structures);
 

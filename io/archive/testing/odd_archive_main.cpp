@@ -1,7 +1,7 @@
-// An archive that misbehaves, for tests: `odd_archive BEHAVIOR [PORT]`. It speaks DICOM's upper layer (PS3.8) byte by
-// byte and knows nothing of DCMTK, so that it can do what no library would. Prints its own port, then serves one
-// connection after the other until its input ends. PORT is where a C-MOVE's images go. One that `tells` behaves, and
-// prints what it is asked.
+// A misbehaving archive for tests: `odd_archive BEHAVIOR [PORT]`. It speaks DICOM's upper layer (PS3.8) byte by byte
+// without DCMTK, so it can break the rules as no library would. Prints its own port, then serves one connection after
+// the other until its input ends. PORT is the target of a C-MOVE's images. The behavior `tells` is correct, and prints
+// the requests.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

@@ -1,4 +1,4 @@
-// The mean of those neighbors in the slice whose values are alike: it keeps edges above the noise.
+// The mean of similar neighbors in the slice: it keeps edges that are larger than the noise.
 #include <fmt/format.h>
 
 #include <cmath>

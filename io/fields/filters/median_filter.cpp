@@ -1,5 +1,5 @@
-// The median of a square of voxels in the slice, as OpenCV has it for floats: of 3 or 5 voxels. It takes single wrong
-// voxels away and keeps straight edges.
+// The median of a square of 3 or 5 voxels in the slice (the sizes that OpenCV has for floats). It removes single wrong
+// voxels and keeps straight edges.
 #include <fmt/format.h>
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// The mean of places in the slice whose surroundings look alike: the slowest.
+// The mean of places in the slice with similar surroundings: the slowest filter.
 #include <fmt/format.h>
 
 #include <algorithm>
