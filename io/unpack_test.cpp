@@ -1,4 +1,4 @@
-// Packed studies: read as their files would be, and bounded.
+// Packed studies: read like their files, and with limits.
 #include "io/unpack.h"
 
 #include <archive.h>

@@ -1,5 +1,5 @@
-// Statistics against sums of their own: of whole numbers up to the last ones that fit, in more voxels than any piece
-// that is counted at once, with and without padding and with a slope of either sign.
+// Statistics against independent sums: of integers up to the largest that fit, in more voxels than any block counted at
+// once, with and without padding and with a slope of either sign.
 #include "io/volume.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Which files are scans by themselves, and which are a part of the series in their folder.
+// Which files are whole scans, and which belong to a series in their folder.
 #include "io/whole_scan.h"
 
 #include <gtest/gtest.h>

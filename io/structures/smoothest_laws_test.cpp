@@ -1,4 +1,4 @@
-// The smoothest surface within bounds: it keeps them, it is a plane where a plane fits, and a ball where a ball does.
+// The smoothest surface within bounds: it keeps them, and is a plane or a ball if these fit.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A scan with structures: the scan's own fields, and each structure's distance at its place in the order.
+// A scan with structures: the scan's own fields, and each structure's distance at its index.
 #include "io/structures/structured_fields.h"
 
 #include <gtest/gtest.h>

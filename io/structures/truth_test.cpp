@@ -1,4 +1,4 @@
-// The shared structures against what pydicom, nibabel and numpy read in them.
+// The shared structures against the results of pydicom, nibabel and numpy.
 #include <gtest/gtest.h>
 
 #include <array>

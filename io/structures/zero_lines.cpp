@@ -1,5 +1,5 @@
 // Marching squares (Lorensen and Cline 1987, in a plane). In a cell whose corners alternate, the mean of the four
-// decides whether the two that are above 0 are joined.
+// decides whether the two corners above 0 are connected.
 
 #include "io/structures/zero_lines.h"
 

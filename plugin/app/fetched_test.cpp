@@ -1,4 +1,4 @@
-// What is fetched goes when its run ends, whatever way that is, and stays where it is to be kept.
+// Fetched files are deleted when their run ends, however it ends, and kept if requested.
 
 #include "plugin/app/fetched.h"
 

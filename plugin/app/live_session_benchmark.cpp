@@ -1,4 +1,4 @@
-/// What a change of the scene costs the panel's thread, on a scan of 512 x 512 x 400 voxels.
+/// The time that a change of the scene takes on the panel's thread, with a scan of 512 x 512 x 400 voxels.
 #include <benchmark/benchmark.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-/// What a live session keeps across a change: of the scan in its recording, and of a fault.
+/// The state that a live session keeps across a change: the scan in its recording, and a fault.
 
 #include <gtest/gtest.h>
 

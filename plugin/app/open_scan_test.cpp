@@ -1,4 +1,4 @@
-/// A scan is described, and opens with the scene that suits it, wherever it comes from.
+/// Every scan is described, and opens with the scene that suits it, whatever its source.
 
 #include "plugin/app/open_scan.h"
 

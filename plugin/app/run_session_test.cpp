@@ -1,5 +1,5 @@
-/// What is set up for a session and told of it: its scene and limits from a recording, the file of a fault, what the
-/// stylus saves, and the line at the end.
+/// The setup of a session and its messages: scene and limits from a recording, the file of a fault, the savings by the
+/// stylus, and the final line.
 
 #include "plugin/app/run_session.h"
 

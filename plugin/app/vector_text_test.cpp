@@ -1,4 +1,4 @@
-// Points as they are typed: three finite numbers, and nothing else.
+// Points as typed text: three finite numbers, and nothing else.
 #include "plugin/app/vector_text.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Rows of a measurement that takes minutes are seen as they come, also where stdout is no terminal.
+// Rows of a slow measurement are printed at once, even if stdout is not a terminal.
 #include "plugin/bench/csv_table.h"
 
 #include <fcntl.h>

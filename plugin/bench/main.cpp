@@ -1,4 +1,4 @@
-// `palpate-bench`: what solvers, fields, loading and the tick cost, and how far they are from the truth.
+// `palpate-bench`: run time and accuracy of solvers, fields, loading and the tick.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

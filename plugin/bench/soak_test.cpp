@@ -1,5 +1,4 @@
-// A minute of what `palpate-bench soak` does for an hour, as fast as the arithmetic; and some seconds of it at the
-// clock's pace.
+// A minute of `palpate-bench soak` as fast as possible, and some seconds of it at the clock's pace.
 #include "plugin/bench/soak.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// `palpate archive`, `find`, `fetch`, `send`, `marks` and `export` as a person meets them; with a real Orthanc where it
-// is installed, from an empty folder to a report that lies in the archive.
+// `palpate archive`, `find`, `fetch`, `send`, `marks` and `export` as a person uses them; with a real Orthanc if it is
+// installed, from an empty folder to a report in the archive.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

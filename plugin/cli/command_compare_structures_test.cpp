@@ -1,5 +1,5 @@
-// `palpate structures compare` as a script meets it: label maps and DICOM, on grids that differ, against mathematics
-// and plastimatch.
+// `palpate structures compare` as a script uses it: label maps and DICOM, on different grids, against mathematics and
+// plastimatch.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

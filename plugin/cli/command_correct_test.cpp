@@ -1,4 +1,4 @@
-// `palpate correct` as a script meets it: an outline whose cap was cut off is mended by a trace, written in every form,
+// `palpate correct` as a script uses it: an outline with a missing cap is corrected by a trace, written in every form,
 // read again and measured against the truth.
 
 #include <gmock/gmock.h>

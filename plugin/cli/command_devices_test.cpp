@@ -1,5 +1,5 @@
-// `palpate devices`: on the fakes that a program can reach (libraries that it loads, a service on a socket), and its
-// check of the axes on every fake, in this process and in the fake's own time.
+// `palpate devices`: on the fakes that a program can reach (loaded libraries, a service on a socket), and its check of
+// the axes on every fake, in this process and in the fake's own time.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

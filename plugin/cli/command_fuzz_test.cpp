@@ -1,5 +1,5 @@
-// Words at random, as the program meets them from scripts that went wrong: it answers each with one of its exit codes,
-// and says why on stderr. PALPATE_FUZZ_COMMANDS sets how many.
+// Random arguments, as from faulty scripts: the program ends with one of its exit codes, and prints the reason on
+// stderr. PALPATE_FUZZ_COMMANDS sets their number.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

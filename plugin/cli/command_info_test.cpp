@@ -1,4 +1,4 @@
-// `palpate info` and `sample` as a script meets them, on series whose every number is known.
+// `palpate info` and `sample` as a script uses them, on series with known numbers.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcuid.h>
 #include <fmt/format.h>

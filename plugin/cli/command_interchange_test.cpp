@@ -1,5 +1,5 @@
-// A scan that is no DICOM, on its whole way through the program: info, sample, suggest, profile, record, replay. Its
-// lattice is oblique and left-handed, and its values tell the place.
+// A scan that is not DICOM, through the whole program: info, sample, suggest, profile, record, replay. Its lattice is
+// oblique and left-handed, and its values encode the position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

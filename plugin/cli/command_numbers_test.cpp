@@ -1,5 +1,5 @@
-/// Every number and word that a command prints, against the same calculated beside the program: on a grid that is
-/// oblique, tilted, uneven and not square, and with options that are not their defaults.
+/// Every number and word that a command prints, against an independent calculation: on a grid that is oblique, tilted,
+/// uneven and not square, and with options other than the defaults.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

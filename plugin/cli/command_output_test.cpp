@@ -1,4 +1,4 @@
-// What a file's name or its text holds reaches no terminal as a command to it.
+// Control characters in file names and texts never reach a terminal.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

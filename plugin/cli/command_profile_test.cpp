@@ -1,4 +1,4 @@
-/// Every number and word that `palpate profile` prints, against a stroke that is made beside the program.
+/// Every number and word that `palpate profile` prints, against an independently computed stroke.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

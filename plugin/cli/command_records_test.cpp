@@ -1,5 +1,5 @@
-/// The numbers and words that commands print of paths, recordings, marks, structures, series, archives and devices,
-/// against the same calculated beside the program.
+/// The numbers and words that commands print about paths, recordings, marks, structures, series, archives and devices,
+/// against an independent calculation.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// `palpate probe`, `record` and `replay` as a person meets them.
+// `palpate probe`, `record` and `replay` as a person uses them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// `palpate structures` as a script meets it, against what pydicom and numpy read in the shared segmentations.
+// `palpate structures` as a script uses it, against the results of pydicom and numpy for the shared segmentations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// `palpate suspects` as a script meets it, on the phantom's core.
+// `palpate suspects` as a script uses it, on the phantom's core.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

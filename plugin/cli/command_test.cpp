@@ -1,4 +1,4 @@
-// The program as a person meets it: exit codes, messages, JSON, and nothing half-written left behind.
+// The program as a person uses it: exit codes, messages, JSON, and no incomplete files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The wind tunnel out of a scanner: a 4D-flow study on disk, felt through the program, against the flow itself.
+// The wind tunnel as a scan: a 4D-flow study on disk, felt through the program, against the flow itself.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Structures as a script meets them, on a scan and a label map that are made here: what the shared ones show on real
-// organs (SharedCommandStructures) holds without them, too.
+// Structures as a script uses them, on a scan and a label map made here: the checks of SharedCommandStructures on real
+// organs, for checkouts without the shared data.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// `palpate`: the engine without a screen. What ParaView's panel does, a script can do.
+// `palpate`: the engine without a screen. A script can do everything that ParaView's panel does.
 
 #include <CLI/CLI.hpp>
 

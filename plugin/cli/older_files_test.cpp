@@ -1,4 +1,4 @@
-// What an older version wrote is still read: the recording and the scene in testdata/0.1.0, made by version 0.1.0.
+// Files of older versions can still be read: the recording and the scene in testdata/0.1.0, made by version 0.1.0.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

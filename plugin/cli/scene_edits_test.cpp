@@ -1,4 +1,5 @@
-// A scene whose structure carries edits: what is felt is what `palpate correct` writes, and a recording repeats it.
+// A scene with an edited structure: the felt outline is the one that `palpate correct` writes, and a recording replays
+// it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

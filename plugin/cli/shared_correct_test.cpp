@@ -1,5 +1,5 @@
-// One correction from end to end on real scans: an outline is spoilt, `palpate suspects` finds where, a trace mends it,
-// and what is written is read again.
+// A complete correction on real scans: an outline is falsified, `palpate suspects` finds the place, a trace corrects
+// it, and the written file is read again.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// `palpate info` and `sample` on real series, against what pydicom and numpy read in them.
+// `palpate info` and `sample` on real series, against the results of pydicom and numpy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

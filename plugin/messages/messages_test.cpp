@@ -1,5 +1,5 @@
-// The page against the tables that it is made of, the tables against the sources that say what stands in them, and each
-// message of the programs and the panel as it is said.
+// The page against its tables, the tables against the sources that use their messages, and each message of the programs
+// and the panel in its final form.
 
 #include "plugin/messages/messages.h"
 #include "plugin/messages/messages_of_openigtlink.h"

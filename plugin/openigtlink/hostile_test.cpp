@@ -1,5 +1,5 @@
-// A soak: clients that flood, lie, stop in mid message or read nothing, beside a running session. Its ticks are those
-// of a session without clients.
+// A soak: clients that flood, send false data, stop within a message or do not read, beside a running session. Its
+// ticks are those of a session without clients.
 
 #include <gtest/gtest.h>
 

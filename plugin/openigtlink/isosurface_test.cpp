@@ -1,4 +1,4 @@
-// A surface against mathematics: on it, closed, turned outwards.
+// A surface against mathematics: its points are on it, it is closed, and its normals point outwards.
 
 #include "plugin/openigtlink/isosurface.h"
 

@@ -1,4 +1,5 @@
-// Laws of the wire that need no peer: headers, checksums, version 2, and streams that are cut, lie or are damaged.
+// Laws of the protocol that need no peer: headers, checksums, version 2, and streams that are truncated, false or
+// damaged.
 
 #include "plugin/openigtlink/message.h"
 

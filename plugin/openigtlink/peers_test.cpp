@@ -1,5 +1,5 @@
-// Debian's examples of OpenIGTLink as servers, whose messages are read here, and as a client that sends what Palpate
-// has no use for. `palpate serve` with the example of a receiver is in serve_test.cpp.
+// Debian's examples of OpenIGTLink as servers, whose messages are read here, and as a client that sends messages which
+// Palpate does not use. serve_test.cpp runs `palpate serve` with the example of a receiver.
 
 #include <gtest/gtest.h>
 

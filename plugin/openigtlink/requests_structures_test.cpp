@@ -1,4 +1,4 @@
-// What clients ask for: label maps, structures of files, and marks.
+// Requests of clients: label maps, structures of files, and marks.
 
 #include <gtest/gtest.h>
 

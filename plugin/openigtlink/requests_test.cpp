@@ -1,4 +1,4 @@
-// What clients ask for, on a real session: scenes are felt; force and limits stay.
+// Requests of clients to a real session: scenes are felt; force and limits stay.
 
 #include "plugin/openigtlink/requests.h"
 

@@ -1,4 +1,4 @@
-// What clients ask for: folders, and which of several requests is felt.
+// Requests of clients: folders, and which of several requests takes effect.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The server against clients that are slow, many, lying or rude: each loses nothing but its own.
+// The server against clients that are slow, numerous, or break the protocol: each affects only itself.
 
 #include "plugin/openigtlink/server.h"
 

@@ -1,4 +1,5 @@
-// What clients see of a scene: values' surfaces against mathematics, boundaries where they are felt, names that fit.
+// The shapes of a scene for clients: surfaces of values against mathematics, boundaries where they are felt, valid
+// names.
 
 #include "plugin/openigtlink/shapes.h"
 

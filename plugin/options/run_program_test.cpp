@@ -1,4 +1,4 @@
-/// The exit code of each kind of end that a command can come to, and what is said of it.
+/// The exit code for each way in which a command can end, and its message.
 
 #include "plugin/options/run_program.h"
 

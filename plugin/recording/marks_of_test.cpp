@@ -1,5 +1,5 @@
-/// What was marked in a recording, against presses that are taken apart by hand: random ways of the proxy, random
-/// buttons, shares of two scenes, and measures from the places alone.
+/// The marks of a recording, against an independent analysis of presses: random paths of the proxy, random buttons,
+/// shares of two scenes, and measures computed only from the positions.
 
 #include <gtest/gtest.h>
 

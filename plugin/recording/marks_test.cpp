@@ -1,4 +1,4 @@
-// Presses of the mark button against ways whose places and lengths are known by construction.
+// Presses of the mark button on paths whose positions and lengths are known by construction.
 
 #include "plugin/recording/marks.h"
 

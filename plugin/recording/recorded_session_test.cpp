@@ -1,5 +1,5 @@
-/// A recording seen from the patient, against a calculation of its own: with ticks of another scan in between, other
-/// numbers of shares in each tick, and a reach of the hand that is turned, scaled and moved.
+/// A recording in patient space, against an independent calculation: with ticks of another scan in between, different
+/// numbers of shares in each tick, and a workspace that is rotated, scaled and moved.
 
 #include "plugin/recording/recorded_session.h"
 

@@ -1,4 +1,4 @@
-/// When a recorder flushes, waits, ends and counts: by a clock and a disk that the test holds in its hands.
+/// When a recorder flushes, waits, ends and counts, with a clock and a disk controlled by the test.
 
 #include <gtest/gtest.h>
 

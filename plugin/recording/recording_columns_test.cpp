@@ -1,4 +1,4 @@
-/// What a recording tells of its scenes: as columns of a table, as the frames that were felt, as registrations.
+/// The scenes in a recording: as columns of a table, as felt frames, as registrations.
 
 #include <gtest/gtest.h>
 

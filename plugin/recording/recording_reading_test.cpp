@@ -1,4 +1,4 @@
-/// What is read of a recording's texts and lines, and what is said of a file that is none.
+/// Reading a recording's texts and lines, and the message about a file that is not a recording.
 
 #include <gtest/gtest.h>
 #include <hdf5.h>

@@ -1,4 +1,4 @@
-/// What other programs read of a recording, by the names that it gives; and what is noted beside its ticks.
+/// The names in a recording, by which other programs read it; and its events.
 
 #include "plugin/recording/recording_rows.h"
 

@@ -1,5 +1,4 @@
-/// A recording's file as a program with HDF5 and nothing else sees it: written in parts, flushed, left, cut and
-/// damaged.
+/// A recording's file as seen with HDF5 alone: written in parts, flushed, abandoned, truncated and damaged.
 
 #include <gtest/gtest.h>
 #include <hdf5.h>

@@ -1,4 +1,4 @@
-/// A recording in several files is repeated as if it were one, wherever it was cut; and nothing is kept that is over.
+/// A recording in several files is replayed like one, wherever it was divided; and finished parts are released.
 
 #include <gtest/gtest.h>
 

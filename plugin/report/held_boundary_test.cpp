@@ -1,4 +1,4 @@
-// What is said of the boundary that holds the proxy, against phantoms whose surfaces and contrasts are known.
+// The description of the boundary that holds the proxy, against phantoms with known surfaces and contrasts.
 #include "plugin/report/held_boundary.h"
 
 #include <gtest/gtest.h>

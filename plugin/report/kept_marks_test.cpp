@@ -1,4 +1,4 @@
-// Marks as state files hold them: all of them come back, and a text that was changed is refused in words.
+// Marks in state files: all of them are read again, and a changed text is refused in words.
 
 #include "plugin/report/kept_marks.h"
 

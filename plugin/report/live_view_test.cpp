@@ -1,4 +1,4 @@
-/// The line that is written over while a session runs: each number in its place and unit.
+/// The overwritten line of a running session: each number in its place and unit.
 
 #include "plugin/report/live_view.h"
 

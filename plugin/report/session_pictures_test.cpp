@@ -1,5 +1,5 @@
-/// A session's pictures: each chart's numbers against a session whose every number is chosen, and a slice's pixels
-/// against the scan.
+/// A session's pictures: each chart's numbers against a session with chosen numbers, and a slice's pixels against the
+/// scan.
 
 #include "plugin/report/session_pictures.h"
 

@@ -1,4 +1,4 @@
-/// What stands on a slice's picture besides the scan: the letters of the patient's sides, the forces and the scales.
+/// The parts of a slice's picture besides the scan: the letters of the patient's sides, the forces and the scales.
 
 #include "plugin/report/slice_picture.h"
 

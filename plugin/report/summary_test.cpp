@@ -1,5 +1,4 @@
-/// The numbers and words of a session's summary, compared with a recording whose every number is chosen to be told from
-/// every other.
+/// The numbers and words of a session's summary, compared with a recording in which all numbers are different.
 
 #include "plugin/report/summary.h"
 

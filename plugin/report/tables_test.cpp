@@ -1,4 +1,4 @@
-/// Tables, charts and reports: every number stands under the name that it is called by. All numbers here differ.
+/// Tables, charts and reports: every number is under its own name. All numbers here are different.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// The scan's own edge beside strokes, against a ball whose edge is known.
+/// The scan's own edge beside strokes, against a ball with a known edge.
 
 #include "plugin/structures/edges_beside.h"
 

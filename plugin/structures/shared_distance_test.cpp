@@ -1,4 +1,5 @@
-/// One distance field for all who ask for the same, as long as one of them holds it; another for whatever differs.
+/// All callers with the same arguments share one distance field while any of them holds it; different arguments give
+/// another.
 
 #include "plugin/structures/shared_distance.h"
 

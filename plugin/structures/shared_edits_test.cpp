@@ -1,4 +1,4 @@
-/// One field for all who ask for the same edit of the same field, as long as one of them holds it.
+/// All callers with the same edit of the same field share one field while any of them holds it.
 
 #include "plugin/structures/shared_edits.h"
 

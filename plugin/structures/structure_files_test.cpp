@@ -1,4 +1,4 @@
-// A recording names no path, and finds its structures again by what is in their files.
+// A recording contains no path, and finds its structures by the contents of their files.
 #include "plugin/structures/structure_files.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-/// How far a structure's distances are kept in detail: in steps of 3, 5, 8, 12 and 20 mm, each taken as far as it goes.
+/// The reach of a structure's detailed distances: in steps of 3, 5, 8, 12 and 20 mm, each used as far as it is
+/// sufficient.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Whose structure it is and where it lies: names and ids as hashes, and the order of motions.
+/// The patient and position of a structure: names and ids as hashes, and the order of motions.
 
 #include <gtest/gtest.h>
 

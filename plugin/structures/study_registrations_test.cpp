@@ -1,4 +1,4 @@
-// Registrations beside structures: each file is opened once, however many structures ask; bounded; can be cancelled.
+// Registrations beside structures: each file is opened once for any number of structures; bounded; can be cancelled.
 #include "plugin/structures/study_registrations.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Structures on a scan: of which patient, in which frame of reference, and what a registration in their study does.
+// Structures on a scan: patient, frame of reference, and the effect of a registration in their study.
 #include "plugin/structures/study_structures.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a server tells of the structures beside its scan, and of the scan's patient, without ParaView around it.
+// A server's messages about the structures beside its scan, and about the scan's patient, without ParaView.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkClientServerStream.h>

@@ -1,5 +1,5 @@
-// What the plug-in on the server says of scans, images and questions that it refuses, in the words of messages.md: the
-// reader, the filters and the slices' way to a client, without ParaView around them.
+// The server plug-in's messages about scans, images and requests that it refuses, as in messages.md: the reader, the
+// filters and the transfer of slices to a client, without ParaView.
 
 #include <gtest/gtest.h>
 #include <vtkClientServerStream.h>

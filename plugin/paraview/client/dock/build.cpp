@@ -1,6 +1,6 @@
 #include "plugin/paraview/client/dock/parts.h"
 
-// Models, then sections; then what connects them finds all of them.
+// First the models, then the sections, then the connections, which need all of them.
 
 namespace palpate::plugin {
 

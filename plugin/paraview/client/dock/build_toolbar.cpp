@@ -19,7 +19,7 @@
 #include "plugin/paraview/client/widgets/file_name.h"
 #include "plugin/paraview/client/words.h"
 
-// ParaView's window as a clinician's, and what its toolbar asks for.
+// The clinical layout of ParaView's window, and the actions of its toolbar.
 
 namespace palpate::plugin {
 

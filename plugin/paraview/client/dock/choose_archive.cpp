@@ -9,7 +9,7 @@
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
-// What is sent, marks or an outline, is shown before.
+// Shows what will be sent, marks or an outline, before it is sent.
 
 namespace palpate::plugin {
 

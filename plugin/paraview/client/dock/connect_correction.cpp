@@ -18,7 +18,7 @@
 #include "plugin/paraview/client/panel/structures_section.h"
 #include "plugin/paraview/client/words.h"
 
-// A structure is corrected: strokes come from the views and the stylus, and the outline goes out.
+// Connections for correcting a structure: strokes come from the views and the stylus, and the outline is saved or sent.
 
 namespace palpate::plugin {
 namespace {

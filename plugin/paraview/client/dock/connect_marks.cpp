@@ -16,7 +16,7 @@
 #include "plugin/paraview/client/words.h"
 #include "plugin/session/scan_hash.h"
 
-// What is marked belongs to the scan that is shown.
+// Connections of the marks, which belong to the scan that is shown.
 
 namespace palpate::plugin {
 

@@ -20,7 +20,7 @@
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
-// A scan comes, its frame changes, it goes.
+// Connections for opening a scan, changing its frame, and closing it.
 
 namespace palpate::plugin {
 

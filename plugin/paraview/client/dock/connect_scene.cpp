@@ -3,7 +3,7 @@
 #include "plugin/paraview/client/panel/profile_section.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 
-// A scene is edited: the views follow. What is pointed at in a view is told.
+// Connections for edits of the scene, which the views follow, and for the place under the pointer.
 
 namespace palpate::plugin {
 

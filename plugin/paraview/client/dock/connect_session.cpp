@@ -22,7 +22,7 @@
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
-// A stylus is connected, is held, is gone.
+// Connections for connecting, using and disconnecting a stylus.
 
 namespace palpate::plugin {
 

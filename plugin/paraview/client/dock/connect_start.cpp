@@ -16,7 +16,7 @@
 #include "plugin/paraview/client/widgets/fold.h"
 #include "plugin/paraview/client/words.h"
 
-// What stands in the center where no scan is open, and how one gets from there to a scan.
+// Connections of the start page in the center, from which a scan is opened.
 
 namespace palpate::plugin {
 

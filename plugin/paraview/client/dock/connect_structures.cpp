@@ -8,7 +8,7 @@
 #include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/structures_section.h"
 
-// Structure sets belong to the scan that is shown.
+// Connections of the structures, which belong to the scan that is shown.
 
 namespace palpate::plugin {
 

@@ -1,4 +1,4 @@
-/// A correction: the scan's edge is felt, and the stylus is held in a slice.
+/// Corrections: the scan's edge is felt, and the stylus is held in a slice.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-/// A correction: traces for which the scan's edge is looked at, and doubtful places.
+/// Corrections: traces that use the scan's edge, and doubtful places.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-/// A correction: each step is done once what it needs was read.
+/// Corrections: each step waits until its files are read.
 
 #include <gmock/gmock.h>
 

@@ -6,7 +6,7 @@
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/words.h"
 
-// Whether what is felt is what is seen, and the frame of both.
+// Whether the felt scan is the visible one, and the frame of both.
 
 namespace palpate::plugin {
 

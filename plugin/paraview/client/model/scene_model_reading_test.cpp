@@ -1,4 +1,4 @@
-/// Changes of the scene for which files have to be read first.
+/// Changes of the scene that need files to be read first.
 
 #include <gmock/gmock.h>
 

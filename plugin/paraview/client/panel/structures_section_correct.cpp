@@ -11,7 +11,7 @@
 #include "plugin/structures/drawn_structure.h"
 #include "plugin/structures/shared_distance.h"
 
-// The structure that is being corrected.
+// The correction of a structure.
 
 namespace palpate::plugin {
 

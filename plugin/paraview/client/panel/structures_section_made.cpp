@@ -14,7 +14,7 @@
 #include "plugin/structures/drawn_structure.h"
 #include "plugin/structures/study_structures.h"
 
-// What is made of the structures in the background, measures and shapes, and drawn in the views.
+// The background results for structures, measures and shapes, and their drawing in the views.
 
 namespace palpate::plugin {
 namespace {

@@ -22,7 +22,7 @@
 #include "plugin/paraview/client/words/mode_words.h"
 #include "plugin/structures/study_structures.h"
 
-// What stands in the section, from top to bottom, and what its buttons, menus and dialogs ask for.
+// The section's widgets, from top to bottom, with the actions of its buttons, menus and dialogs.
 
 namespace palpate::plugin {
 namespace {

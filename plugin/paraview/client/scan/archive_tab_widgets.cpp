@@ -14,7 +14,7 @@
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words.h"
 
-// What stands in the tab, from top to bottom.
+// The tab's widgets, from top to bottom.
 
 namespace palpate::plugin {
 

@@ -1,4 +1,4 @@
-// From an archive to a felt boundary: search, fetch, feel; what lies on disk; an archive that is entered, and one that
+// From an archive to a felt boundary: search, fetch, feel; the files on disk; a newly configured archive, and one that
 // never ends. archive_test.py starts the archives.
 
 #include <QCheckBox>

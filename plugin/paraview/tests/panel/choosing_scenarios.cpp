@@ -1,4 +1,4 @@
-// How a clinician gets from an empty ParaView to a scan, and from there to a force. choosing_test.py names the folders.
+// From an empty ParaView to a scan, and from there to a force. choosing_test.py names the folders.
 
 #include <pqCoreUtilities.h>
 #include <pqTabbedMultiViewWidget.h>

@@ -1,4 +1,4 @@
-// The lines of the boundaries on the slices: where they are felt, in their colors, and while a node is dragged.
+// The lines of the boundaries on the slices: their place, their colors, and their behavior while a node is dragged.
 
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>

@@ -1,4 +1,4 @@
-// What is corrected of structures that a scene draws, and what a state keeps of a correction.
+// Corrections of structures defined by a scene, and the part of a correction that a state file keeps.
 
 #include <pqApplicationCore.h>
 

@@ -1,5 +1,5 @@
-// Styluses that come and go, are lost while they push, and have no guardian: a Force Dimension's library with a fake
-// device behind it.
+// Styluses that are plugged in and out, are lost while they push, or have no guardian: a Force Dimension library with a
+// fake device.
 
 #include <dlfcn.h>
 #include <fcntl.h>

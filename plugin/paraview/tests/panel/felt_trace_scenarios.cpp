@@ -16,7 +16,7 @@
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
-// An outline is corrected by the stylus, which feels the scan's own edge.
+// An outline is corrected with the stylus, which feels the scan's own edge.
 
 namespace {
 

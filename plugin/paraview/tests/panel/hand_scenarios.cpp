@@ -1,4 +1,4 @@
-// What the hand does with keys, colors and curves, by what is felt and seen.
+// The user's actions with keys, colors and curves, checked by what is felt and seen.
 
 #include <pqRenderView.h>
 #include <vtkActor.h>

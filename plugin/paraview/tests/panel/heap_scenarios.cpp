@@ -1,5 +1,5 @@
-// What is left on the heap after rounds of opening, probing and closing, and after the same rounds of a program that
-// has no panel: an image of the same size in the same views.
+// Memory left on the heap after rounds of opening, probing and closing, compared with the same rounds without a panel:
+// an image of the same size in the same views.
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

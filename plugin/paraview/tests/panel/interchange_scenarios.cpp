@@ -1,4 +1,4 @@
-// Scans in files that are no DICOM. voxel_ball.py makes them, and says what is where.
+// Scans in files that are not DICOM. voxel_ball.py makes them, and gives the truth.
 
 #include <QRegularExpression>
 #include <QString>

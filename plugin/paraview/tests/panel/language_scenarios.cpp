@@ -1,4 +1,4 @@
-// The panel in German: started with LC_ALL=de_DE.UTF-8, compared with words that a German wrote.
+// The panel in German: started with LC_ALL=de_DE.UTF-8, compared with texts by a native speaker.
 
 #include <pqCoreUtilities.h>
 

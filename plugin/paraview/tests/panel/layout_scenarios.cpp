@@ -1,4 +1,4 @@
-// The clinical layout: what is on the screen, where it is, and how views are enlarged.
+// The clinical layout: the parts on the screen, their places, and enlarged views.
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

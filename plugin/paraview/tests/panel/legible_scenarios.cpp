@@ -1,5 +1,4 @@
-// What a clinician reads and presses: no control moves away under the pointer, no text is cut off, and nothing of
-// ParaView's stands in front.
+// Legibility: no control moves away under the pointer, no text is cut off, and nothing of ParaView's covers the panel.
 
 #include <pqCoreUtilities.h>
 

@@ -1,5 +1,5 @@
-// Marks: made where the stylus touches, measured, changed and taken back; and that they last. What is shown is held
-// against what the recording of the same session says, and against arithmetic of its places.
+// Marks: made where the stylus touches, measured, changed, undone, and kept. The panel's values are compared with the
+// recording of the same session, and with arithmetic on its positions.
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

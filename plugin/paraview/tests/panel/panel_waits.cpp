@@ -1,4 +1,4 @@
-// How a user of the panel waits, and what is seen of the stylus on the screen.
+// Waiting like a user of the panel, and finding the stylus on the screen.
 
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>

@@ -1,4 +1,4 @@
-// The guide's pictures, as the program looks while it is used.
+// The guide's pictures of the program in use.
 
 #include <pqCoreUtilities.h>
 

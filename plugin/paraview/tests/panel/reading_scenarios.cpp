@@ -1,4 +1,4 @@
-// What a radiologist reads off a slice and does with it: corner texts, the scroll bar, lengths and angles.
+// What a radiologist reads and does in a slice: corner texts, the scroll bar, lengths and angles.
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -31,8 +31,8 @@
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
-// With a server of its own on loopback: PALPATE_SERVER is its port, PALPATE_SERVER_PID its process, PALPATE_REMOTE the
-// folder to open by the server's own name.
+// With a separate server on loopback: PALPATE_SERVER is its port, PALPATE_SERVER_PID its process, PALPATE_REMOTE the
+// folder to open, by the server's own name.
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Marks that are sent to an archive, and the dialog that shows before what would be sent.
+// Sending marks to an archive, and the dialog that first shows what will be sent.
 
 #include <QComboBox>
 #include <QDialog>

@@ -1,4 +1,4 @@
-// What 3D Slicer would see of the panel's session: read by a program that shares no code with Palpate.
+// The panel's session as 3D Slicer would see it: read by a program that shares no code with Palpate.
 
 #include <QCheckBox>
 #include <QJsonArray>

@@ -1,4 +1,4 @@
-// What is felt is what is shown. Where no view shows the scan there is no force, and the panel says why.
+// The felt scan is the visible one. If no view shows the scan there is no force, and the panel says why.
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

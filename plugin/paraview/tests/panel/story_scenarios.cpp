@@ -1,5 +1,5 @@
-// A scene that lasts: saved, restored by another program, traced, undone. What has to be compared between two programs
-// is written to files that panel_test.py's caller compares.
+// A scene that persists: saved, restored by another program, traced, undone. Results of the two programs are written to
+// files that panel_test.py's caller compares.
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

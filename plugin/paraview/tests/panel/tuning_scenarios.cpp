@@ -1,4 +1,4 @@
-// What a tuned scene shows of itself, and small things of the panel that were once wrong.
+// The display of a tuned scene, and small faults of the panel that were once present.
 
 #include <QAction>
 #include <QCheckBox>

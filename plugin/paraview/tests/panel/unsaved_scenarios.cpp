@@ -1,5 +1,5 @@
-// What is not saved is asked about, once, before another scan or the end takes it away; and kept where nobody was
-// asked.
+// The user is asked once about unsaved work before another scan or the end discards it; work is kept if the user could
+// not be asked.
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
