@@ -8,9 +8,9 @@
 
 namespace palpate::io::internal {
 
-/// All files in these files and folders, searched to the bottom, in order and each once; a DICOMDIR stands for its
-/// folder. Folders below that may not be read are added to
-/// `skipped`. Throws DicomError if a path does not exist or cannot be listed.
+/// All files in these paths and in the folders below them, in order, each once. A DICOMDIR stands for its folder. A
+/// subfolder that cannot be read is added to `skipped`. Throws DicomError if a path does not exist or cannot be
+/// listed.
 std::vector<std::filesystem::path> files_below(std::span<const std::filesystem::path> paths,
                                                std::vector<SkippedFile>& skipped);
 

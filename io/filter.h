@@ -19,7 +19,7 @@ namespace palpate::io {
 
 struct FilterType;
 
-/// Settings of a filter. Each type reads some of them.
+/// Settings of a filter. Each type uses some of them.
 struct Filter {
   const FilterType* type = nullptr;  ///< null: no filter
   double sigma_mm = 1;               ///< standard deviation of the weights over the distance
@@ -33,19 +33,19 @@ struct Filter {
 struct FilterType {
   std::string_view name;     ///< as in scenes
   std::string_view title;    ///< for people
-  std::string_view summary;  ///< one line for people: what it does to noise and edges
+  std::string_view summary;  ///< one line for people: its effect on noise and edges
   bool reads_sigma_mm = false, reads_width = false, reads_sigma_value = false;
   bool reaches_across = false;  ///< whether a Gaussian of sigma_mm across the slices follows in_slice()
   std::string (*in_words)(const Filter& filter) = nullptr;
   /// Filters the rescaled values of one slice (CV_32F).
   cv::Mat (*in_slice)(const cv::Mat& values, const Geometry& geometry, const Filter& filter) = nullptr;
-  /// Variance of its blur along a unit direction, mm^2; null if edges stay.
+  /// Variance of the blur along a unit direction, mm^2. Null if the filter keeps edges.
   double (*blur)(const Geometry& geometry, const Filter& filter, const Vec3& direction) = nullptr;
 };
 
 /// All types of filter.
 std::span<const FilterType* const> filter_types();
-/// Null if there is none of that name.
+/// Null if no type has that name.
 const FilterType* find_filter_type(std::string_view name);
 
 /// "Gaussian filter of 1 mm"; "no filter".

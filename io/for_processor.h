@@ -21,8 +21,8 @@
 #endif
 #endif
 
-/// Before a loop whose iterations are independent: none reads what another one writes. (clang finds that out by itself,
-/// and would warn if a sanitizer keeps it from using it.)
+/// Before a loop whose iterations are independent: none reads what another one writes. (clang detects that itself, and
+/// would warn if a sanitizer prevents the optimization.)
 #ifdef __clang__
 #define PALPATE_INDEPENDENT
 #else

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Where the voxels of a series are in the patient. DICOM patient space: LPS (x to the patient's left, y to the back, z
-/// to the head), millimeters. Source: ImagePositionPatient and ImageOrientationPatient of every slice, PixelSpacing;
+/// The positions of a series' voxels in the patient. DICOM patient space: LPS (x to the patient's left, y to the back,
+/// z to the head), millimeters. Source: ImagePositionPatient and ImageOrientationPatient of every slice, PixelSpacing;
 /// never the gantry-tilt attribute.
 
 #include <glm/mat3x3.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Finds the series in folders. Every file is judged by its content; images are grouped into series that can become a
-/// volume; files that are set apart are listed with a reason. Only headers are read here; load() reads the voxels.
+/// volume; skipped files are listed with a reason. Only headers are read here; load() reads the voxels.
 
 #include <filesystem>
 #include <memory>

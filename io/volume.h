@@ -1,6 +1,6 @@
 #pragma once
 
-/// The voxels of one series (one frame of it, where positions repeat), in patient space.
+/// The voxels of one series (of one frame, if positions repeat), in patient space.
 
 #include <array>
 #include <cstddef>
@@ -34,10 +34,10 @@ struct Volume {
   double slope = 1;
   double intercept = 0;
   std::string unit;                    ///< "HU", or empty if the modality has none
-  std::string frame_of_reference_uid;  ///< empty where it is not said
+  std::string frame_of_reference_uid;  ///< empty if unknown
   std::string modality;                ///< DICOM Modality: "CT", "MR", ...
   std::string body_part,
-      description;  ///< BodyPartExamined, SeriesDescription: what they scan decides the starting scene
+      description;  ///< BodyPartExamined, SeriesDescription: used to choose the starting scene
   /// The patient, to be compared with the structures' patient. Never written or shown.
   std::string patient_id, patient_name;
   /// Stored values, both ends included, that are padding and not tissue (PixelPaddingValue, PixelPaddingRangeLimit).

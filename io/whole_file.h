@@ -10,7 +10,7 @@ namespace palpate::io {
 
 enum class Existing : std::uint8_t { keep, replace };
 
-/// Throws DicomError if the file exists and is to be kept, or is no file at all.
+/// Throws DicomError if the file exists and must be kept, or if the path is not a file.
 void check_may_write(const std::filesystem::path& file, Existing existing);
 
 /// Writes the bytes to a temporary file beside the file, and renames it when all are written. Throws DicomError as

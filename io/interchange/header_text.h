@@ -20,13 +20,13 @@
 
 namespace palpate::io {
 
-/// The lines of a header. Throws DicomError if they come to more than 64 MiB, ten times the longest one known: what
-/// follows a header that was cut would be read as values.
+/// The lines of a header. Throws DicomError after 64 MiB, ten times the longest header known: the header's end is then
+/// missing, and values would be read as lines.
 class HeaderLines {
  public:
   explicit HeaderLines(std::istream& stream) : stream_(stream) {}
 
-  /// False if the file ends.
+  /// False at the end of the file.
   bool next(std::string& line) {
     line.clear();
     for (int c = stream_.get(); c != std::istream::traits_type::eof(); c = stream_.get()) {
@@ -54,7 +54,7 @@ inline std::string trimmed(const std::string& text) {
   return from == std::string::npos ? std::string() : text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
 }
 
-/// The first of several names under which a field goes; empty if there is none.
+/// The value of the first of these names that the header has; empty if it has none.
 inline std::string field(const HeaderFields& fields, std::initializer_list<std::string> names) {
   for (const std::string& name : names) {
     if (const auto found = fields.find(name); found != fields.end()) return found->second;
@@ -62,7 +62,7 @@ inline std::string field(const HeaderFields& fields, std::initializer_list<std::
   return {};
 }
 
-/// The number that a word begins with, whatever the program's locale says of commas; 0 if there is none.
+/// The number at the beginning of a word, whatever the program's locale; 0 if there is none.
 inline double number_in(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double number = 0;

@@ -113,8 +113,8 @@ struct VoxelMap {
 /// sheared. They ascend along i x j. Throws DicomError if no two axes are at right angles, or a size is impossible.
 void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file);
 
-/// Notes that a voxel has so many numbers, its red, green and blue and perhaps its alpha. Throws DicomError if that
-/// cannot be: colors are 3 or 4 numbers of 8 bits, or of 16.
+/// Notes that a voxel has so many numbers: red, green, blue and perhaps alpha. Throws DicomError unless these are 3 or
+/// 4 numbers of 8 or 16 bits.
 void read_as_colors(double numbers, VoxelFile& file);
 /// Throws DicomError if it is not a valid count.
 int count_of_volumes(double count);
@@ -123,7 +123,7 @@ int count_of_volumes(double count);
 bool has_ending(const std::filesystem::path& name, const std::string& ending);
 /// The file of voxels that a header names. Throws DicomError if it does not lie beside the header.
 std::filesystem::path beside(const std::filesystem::path& header, const std::string& name);
-/// Throws DicomError if the file is too short for its voxels, or is packed and would be unpacked to too much.
+/// Throws DicomError if the file is too short for its voxels, or would be too large when unpacked.
 void check_size(const VoxelFile& file);
 
 }  // namespace palpate::io

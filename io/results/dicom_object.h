@@ -26,7 +26,7 @@ std::string decimal(double number);
 /// One line of at most 64 characters (LO): without backslashes and control characters.
 std::string long_string(const std::string& utf8);
 
-/// The object as a file has it. Throws DicomError if DCMTK refuses.
+/// The object as the bytes of a file. Throws DicomError if DCMTK refuses.
 std::string bytes_of(DcmFileFormat& format, E_TransferSyntax syntax);
 
 /// Throws DicomError with DCMTK's reason.
@@ -38,13 +38,14 @@ struct SliceImage {
   std::uint32_t frame = 0;  ///< of a multi-frame file, from 1 on; else 0
 };
 
-/// One for each slice of the scan's frame, found by their positions. Throws DicomError if the scan is no DICOM.
+/// One for each slice of the scan's frame, found by their positions. Throws DicomError if the scan is not DICOM.
 std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geometry, int frame);
 
 /// Adds a code sequence with one item.
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 
-/// Adds the shared attributes: patient and study, a new series and instance, equipment, dates, and what was corrected.
+/// Adds the shared attributes: patient and study, a new series and instance, equipment, dates, and the corrected
+/// object.
 void put_common(const StudyHeader& header, const StructureLabel& label, const Series& scan, const WriteOptions& options,
                 DcmDataset& data);
 

@@ -15,11 +15,11 @@
 
 namespace palpate::io {
 
-/// A point in patient space (LPS, mm), and what was felt there. Texts are UTF-8.
+/// A point in patient space (LPS, mm), with the felt boundary, value and force. Texts are UTF-8.
 struct MarkedPoint {
   std::string name;
   glm::dvec3 position_mm{0};
-  std::string structure;          ///< the boundary that was felt, or empty
+  std::string structure;          ///< the felt boundary, or empty
   std::optional<double> value;    ///< of the scan, in the series' unit
   std::optional<double> force_n;  ///< N, on the stylus
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Labels of bodies that are given by a formula, on grids of every kind.
+/// Labels of bodies given by a formula, on all types of grids.
 
 #include <functional>
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@ struct LabelLattice {
   Vec3 spacing{1};
   glm::dmat3 axes{1};         ///< columns: unit, at right angles
   double tilt_per_slice = 0;  ///< mm along the second axis
-  double unevenness = 0;      ///< part of a step by which every second slice lies nearer to the one before
+  double unevenness = 0;      ///< fraction of a step by which every second slice is nearer to the one before
 };
 
 /// The labels of a body around the origin, within `extent` of it.

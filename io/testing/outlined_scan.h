@@ -1,6 +1,6 @@
 #pragma once
 
-/// Scans on every kind of grid, and shapes that are given by a formula, for tests that write and read outlines.
+/// Scans on all types of grids, and shapes given by a formula, for tests that write and read outlines.
 
 #include <filesystem>
 #include <string>

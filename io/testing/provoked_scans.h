@@ -20,8 +20,8 @@ using internal::write_bytes;
 using palpate::testing::Provoked;
 using palpate::testing::said_when;
 
-/// All messages about a folder: why files were set apart, notes on its series, and why the first cannot be loaded.
-/// `between` is called after the headers are read and before the pixels are.
+/// All messages about a folder: reasons for skipped files, notes on its series, and why the first series cannot be
+/// loaded. `between` is called after the headers are read and before the pixels are.
 std::string said_of(
     const std::filesystem::path& folder, const std::function<void()>& between = [] {});
 /// The messages about a folder that `fill` fills.

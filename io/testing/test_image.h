@@ -69,7 +69,7 @@ void write_stack(
 
 /// The series that the reader finds there.
 Catalogue find_in(const TestFolder& folder);
-/// The only series there. If there is none, or several, throws with the reasons why files were set apart.
+/// The only series there. If there is none, or several, throws with the reasons for skipped files.
 Series only_series_in(const TestFolder& folder);
 Volume load_frame(const Series& series, int frame);
 

@@ -90,8 +90,7 @@ class Nifti {
   std::string bytes_ = std::string(352, '\0');
 };
 
-/// Columns at right angles to each other, turned about no axis of the patient; and the same with the first axis turned
-/// round: left-handed.
+/// An orthogonal matrix with axes oblique to the patient; and the same with the first axis reversed: left-handed.
 Rows oblique();
 Rows flipped();
 
