@@ -8,7 +8,6 @@
 /// has slope 1, but between two walls it has none. (F. Chazal, A. Lieutier, "The lambda-medial axis", Graphical Models
 /// 67, 2005.) So the displacement's slope along the surface is limited, and each way ends before the slope of phi is
 /// low. Ways that are too long are shortened, to zero if necessary.
-/// before the slope of phi is low. What is too far is shortened, down to nothing where it has to be.
 
 #include <algorithm>
 #include <cmath>

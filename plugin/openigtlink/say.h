@@ -6,7 +6,7 @@
 
 namespace palpate::plugin::igtl {
 
-/// As plugin::say(), of the table of OpenIGTLink.
+/// plugin::say() with the messages of OpenIGTLink.
 template <typename... Values>
 Text say(std::type_identity_t<ChosenMessage<sizeof...(Values), messages::openigtlink>> message,
          const Values&... values) {

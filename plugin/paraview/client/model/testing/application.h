@@ -19,7 +19,6 @@ inline QCoreApplication& application() {
 }
 
 /// A base of fixtures, constructed before their models: a timer that is started before the application never fires.
-/// fires.
 struct WithApplication {
   WithApplication() { application(); }
 };
