@@ -10,7 +10,7 @@
 namespace palpate::io {
 namespace {
 
-// Steps that make a difference to a hand; below a millimeter there is none.
+// Slice thicknesses that feel different; below a millimeter there is no difference.
 int thinness(const Series& series) {
   const double apart = std::max(series.geometry.slice_spacing(), series.details.thickness_mm);
   const std::array steps{1.3, 2.1, 3.2, 5.2};

@@ -47,8 +47,8 @@ Run tick(Stylus& stylus, const Vec3& force, double seconds, State until) {
   return run;
 }
 
-/// Pushes upwards for so long. Where a busy machine held the session up, which its driver takes for a fault, a session
-/// that is to be ended while it pushes is opened anew.
+/// Pushes upwards for this long. If a busy machine delays the session, its driver takes that for a fault; a session
+/// that must push until its end is then opened again.
 Run push(Stylus& stylus, double seconds, int sessions) {
   for (;;) {
     const Run run = tick(stylus, Vec3(0, 1, 0), seconds, State::fault);
@@ -125,7 +125,7 @@ int play(Stylus& stylus, const std::string& scenario) {
   return failures;
 }
 
-/// A user without the rights is told what to type.
+/// A user without permission is told which commands to type.
 int be_denied(Stylus& stylus) {
   const FoundDevice device = find_it();
   int failures = expect(!device.accessible, "may not be opened");

@@ -43,7 +43,7 @@ void called(const char* name) {
 
 void call_back() {
   if (state.stalled != 0 || callback == nullptr || state.running == 0) return;
-  // HD_CALLBACK_CONTINUE is 1; whoever returns anything else is not called again.
+  // HD_CALLBACK_CONTINUE is 1; a callback that returns any other value is not called again.
   if (callback(callback_data) != 1) callback = nullptr;
   state.callbacks = state.callbacks + 1;
 }
@@ -159,7 +159,7 @@ void hdUpdateCalibration(unsigned style) {
   state.updates = state.updates + 1;
   state.calibration = state.after_update;
   state.update_force = std::hypot(state.force[0], state.force[1], state.force[2]);
-  // A device takes one style at a time, and one that it has.
+  // A device accepts one style at a time, and only a supported one.
   if ((style & (style - 1)) != 0 || (static_cast<int>(style) & state.styles) == 0) put_error(0x101);
   called("hdUpdateCalibration");
 }

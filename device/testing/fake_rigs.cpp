@@ -32,7 +32,7 @@ double asleep() noexcept {
   return asleep_s;
 }
 
-/// What the next rig's stylus starts.
+/// The guardian that the next rig's stylus will start.
 std::shared_ptr<FakeGuardian> next_guard;
 
 LinkStylusOptions in_this_thread(bool guarded = true) {
@@ -66,7 +66,7 @@ FakeRig falcon(const std::vector<Waypoint>& path) {
   rig.now = [bench] { return bench->time; };
   rig.exchange = [stylus] { stylus->service(0.2e-3); };
   rig.pass = [bench](double seconds) { bench->time += seconds; };
-  // It holds its last command for ever: of a watchdog of its own nothing is known.
+  // It holds its last command for ever: whether a real one has a watchdog is unknown.
   rig.force = [bench] { return bench->falcon.force(); };
   rig.fling = [bench](const Vec3& velocity) { bench->falcon.hand().fling(velocity); };
   rig.guardian = [bench] {
@@ -198,7 +198,7 @@ FakeRig haply(const std::vector<Waypoint>& path, const char* type) {
   return rig;
 }
 
-/// Of the fake libraries, of which a process has one: a rig starts its clock anew.
+/// For the fake libraries, of which a process has only one: each rig restarts its clock.
 double library_time = 0;
 double library_now() noexcept {
   return library_time;
@@ -260,7 +260,7 @@ FakeRig touch(const std::vector<Waypoint>& path) {
     follow();
   };
   rig.fling = [held](const Vec3& velocity) { held->hand.fling(velocity); };
-  // The library of another process: its forces replace those of the one that stands still.
+  // The library of another process: its forces replace those of the stopped process.
   rig.guardian = [hd] { hd->force[0] = hd->force[1] = hd->force[2] = 0; };
   rig.torques = [hd] { return hd->torques; };
   rig.unplug = [hd] { hd->unplugged = 1; };

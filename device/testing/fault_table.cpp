@@ -44,7 +44,7 @@ class FaultSession {
   Vec3 asked{0, 2.5, 0};
   bool program_lives = true, servo_runs = true, scene_runs = true, commander_lives = true;
 
-  /// What is measured counts from here on.
+  /// Measurements start here.
   void begin() {
     begun_ = true;
     started_ = rig.now();
@@ -60,7 +60,7 @@ class FaultSession {
       observe();
     }
   }
-  /// The program stands still; after `zeroed` s its guardian acts.
+  /// The program is stopped; after `zeroed` s its guardian acts.
   void stand_still(double seconds, double zeroed) {
     bool acted = false;
     for (double passed = 0; passed < seconds; passed += tick_s) {
@@ -72,7 +72,7 @@ class FaultSession {
       observe();
     }
   }
-  /// Opened again with a guardian that is none: no force is ever given.
+  /// Opened again with an invalid guardian: no force is ever given.
   bool is_refused() {
     rig.stylus->close();
     rig.guard->proves = false;

@@ -93,7 +93,7 @@ int number_in(const std::string& file) {
   return number;
 }
 
-/// The node by which the client will have the device; empty: there is none yet.
+/// The client's node for the device; empty: there is none yet.
 std::string node_of(const Scenario& scenario) {
   std::string node = hidraw;
   // While a session still holds the node of before, the arm gets the next one.

@@ -32,15 +32,15 @@ std::string firmware() {
   return image;
 }
 
-/// How a child ended, as the shell has it: 128 + the signal for one that died of it. -1: there is no such child.
+/// The exit status of a child as in a shell: 128 + n if signal n killed it. -1: there is no such child.
 int wait_for(pid_t pid) {
   int status = 0;
   if (waitpid(pid, &status, 0) < 0) return -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Waits until all are gone whose session has left them behind, and returns how the guardian among them ended; -1:
-/// there was none. What keeps the machine awake is another, and ends by itself.
+/// Waits for the processes that a killed session has left behind, and returns the guardian's exit status; -1: there was
+/// none. The process that keeps the machine awake is another one, and ends by itself.
 int wait_for_guardian() {
   int guardian = -1;
   siginfo_t ended{};
@@ -67,7 +67,7 @@ pid_t start_client(const Scenario& scenario, const std::string& client, const st
   return pid;
 }
 
-/// Until the client is stopped. False where it has ended.
+/// Waits until the client is stopped. False if it has ended.
 bool wait_for_stop(pid_t pid) {
   siginfo_t info{};
   return waitid(P_PID, static_cast<id_t>(pid), &info, WSTOPPED | WEXITED | WNOWAIT) == 0 && info.si_code == CLD_STOPPED;
@@ -139,7 +139,7 @@ Play::Outcome Play::look() {
             loaded_anew ? "" : "firmware uploaded " + std::to_string(falcon->uploads()) + " times"};
   }
   if (const auto* arm = dynamic_cast<const FakeWoodenHaptics*>(hid.get())) {
-    // Its own watchdog ends a force that is not renewed: after a replug what counts is what it was told.
+    // Its own watchdog ends a force that is not renewed; so after a replug the commands count.
     const bool pushes =
         is_replugged() ? arm->milliamperes() != std::array<int, 3>{} : arm->is_pushing(monotonic_time());
     Outcome outcome{pushes, arm->reports(), arm->strongest_force(), ""};
@@ -202,7 +202,8 @@ int Play::run(const std::string& client) {
   if (scenario_.name == "unplug" && scenario_.kind != "space_mouse") end_children();
   const int guardian = wait_for_guardian();
 
-  // An unplugged device is its own watchdog's affair; nobody can tell one what may not be opened anything at all.
+  // An unplugged device is left to its own watchdog, because no command reaches it. If opening was denied, nothing was
+  // sent.
   const bool was_opened = scenario_.name != "denied";
   const bool ended_well = should_die ? code > 128 : code == 0;
   if (guardian != (should_die || is_replugged() ? 0 : -1)) {

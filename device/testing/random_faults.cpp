@@ -114,7 +114,7 @@ class RandomSession {
   void fling(const Vec3& velocity) {
     if (!rig_.fling) return;
     rig_.fling(velocity);
-    // Poses that are known are still those of the hand before.
+    // The latest known poses may still be from the previous hand.
     const double before = std::max(hand_m_per_s_, rig_.now() < slower_from_ ? faster_m_per_s_ : 0.0);
     hand_m_per_s_ = glm::length(velocity);
     faster_m_per_s_ = before;
@@ -198,14 +198,14 @@ class RandomSession {
     const SafetyResult result = filter_force(limits_, input, state_);
     rig_.stylus->write_force(result.force);
     if (result.fault != Fault::none && latched_n_ < 0) {
-      // What is on its way is at most a step more than what is there.
+      // A command in transit exceeds the present force by at most a step.
       latched_n_ = std::max({glm::length(rig_.force()), glm::length(last_force_), glm::length(result.force)});
       latched_at_ = rig_.now();
     }
   }
 
-  /// N, at most: motors are told torques for the pose that is known, which may be as old as an answer that still
-  /// counts. Where a fast hand has gone on since, the arm makes another force of them.
+  /// Upper bound, N: the motors get torques for the latest known pose, which may be as old as the oldest valid answer.
+  /// If a fast hand has moved on since, the arm turns them into another force.
   double turned_by_the_arm(const Vec3& force) const {
     constexpr double shortest_arm_m = 0.04;
     const double fastest = std::max(hand_m_per_s_, rig_.now() < slower_from_ ? faster_m_per_s_ : 0.0);

@@ -84,7 +84,7 @@ struct UhidMount::Parts {
       pollfd waiting{node, POLLIN, 0};
       const timespec pause{0, opened ? 200'000 : 10'000'000};
       if (ppoll(&waiting, 1, &pause, nullptr) > 0) take_event();
-      // A device that nobody has opened is not asked for reports.
+      // Reports are requested only from an opened device.
       if (opened) send_reports();
     }
     uhid_event event{};

@@ -35,8 +35,8 @@ int main(int count, char** arguments) {
     std::fputs("umockdev-wrapper device_umockdev CLIENT KIND SCENARIO\n", stderr);
     return 2;
   }
-  // Above the client's threads, and all of them above whatever else runs here, where that is allowed: a real device is
-  // not late because the machine is busy.
+  // Above the client's threads, and all of them above everything else on this machine, if that is permitted: a real
+  // device is not late because the machine is busy.
   make_thread_realtime(65);
   try {
     Play play({.kind = arguments[2], .name = arguments[3], .address = "/dev/hidraw0"});

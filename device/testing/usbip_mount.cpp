@@ -188,7 +188,7 @@ struct UsbipMount::Parts {
   void serve() {
     while (!stop && !unplugged()) {
       pollfd waiting{socket, POLLIN, 0};
-      // What is pending is asked for as often as a device could have it ready.
+      // Pending transfers are polled as often as a device could have them ready.
       const timespec pause{0, reads.empty() ? 10'000'000 : 200'000};
       const int ready = ppoll(&waiting, 1, &pause, nullptr);
       if (ready > 0 && !take_frame()) break;

@@ -169,7 +169,7 @@ Association::~Association() {
   const bool ended = watch_->ended();
   watch_.reset();
   if (broken_ || ended) {
-    // Nothing answers an abort. DCMTK reads until the peer closes, which one that is silent does late.
+    // Nothing answers an abort. DCMTK would read until the peer closes, which takes long if the peer is silent.
     if (transport_->socket >= 0) ::shutdown(transport_->socket, SHUT_RD);
     ASC_abortAssociation(association_);
   } else {

@@ -43,7 +43,7 @@ std::string words_of(const Wanted& wanted) {
   throw ArchiveError(say("archive-did-not-send", archive.name, words_of(wanted), why));
 }
 
-/// Tells the watcher what has come, not more often than a screen shows.
+/// Reports the progress to the watcher, not more often than a screen needs.
 class Teller {
  public:
   Teller(const FetchWatcher& watcher, const Inbox& inbox, int expected)
@@ -123,7 +123,8 @@ Ended move(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& t
 
 std::vector<Proposal> proposals_for_get() {
   std::vector<Proposal> proposals = {{UID_GETStudyRootQueryRetrieveInformationModel, uncompressed_syntaxes()}};
-  // A context for each encoding: the archive chooses one a context, and some send only what they hold.
+  // A separate context for each encoding: the archive chooses one encoding for each context, and some archives send
+  // only the encoding in which they store an image.
   for (const char* kind : {UID_CTImageStorage, UID_MRImageStorage, UID_EnhancedCTImageStorage,
                            UID_EnhancedMRImageStorage, UID_PositronEmissionTomographyImageStorage}) {
     proposals.push_back({kind, uncompressed_syntaxes(), true});
@@ -188,7 +189,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
   }
 }
 
-/// What the last answer means for the user. Throws ArchiveError if nothing is worth keeping.
+/// Interprets the last answer for the user. Throws ArchiveError if nothing is worth keeping.
 void judge(const Archive& archive, const Wanted& wanted, const Ended& ended, std::size_t came, std::size_t unasked,
            const std::string& turned_away, Fetched& result) {
   const Text destination = say("enter-the-destination", archive.calling, archive.listen_port);

@@ -67,7 +67,7 @@ T_ASC_PresentationContextID context_of(Association& association, const Outgoing&
   return 0;
 }
 
-/// What the archive said of a file.
+/// The archive's answer for a file.
 struct Answer {
   bool taken = false;
   Text why;  ///< it was not taken, or was with a warning; else empty

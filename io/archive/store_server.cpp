@@ -155,7 +155,7 @@ void StoreServer::serve(int socket) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();  // before the archive can tell of it
     }
-    // Nothing answers an abort. DCMTK reads until the peer closes, which one that is silent does late.
+    // Nothing answers an abort. DCMTK would read until the peer closes, which takes long if the peer is silent.
     ::shutdown(socket, SHUT_RD);
     ASC_abortAssociation(net.association);
     throw;
@@ -165,7 +165,7 @@ void StoreServer::serve(int socket) {
 bool StoreServer::let_in(T_ASC_Association& association) {
   const std::string calling = trimmed(association.params->DULparams.callingAPTitle);
   const std::string called = trimmed(association.params->DULparams.calledAPTitle);
-  // Spaces at its ends are no part of a title (PS3.5 6.2, AE).
+  // Spaces at either end do not belong to a title (PS3.5 6.2, AE).
   const bool known = calling == trimmed(archive_.called.c_str());
   if (known && called == trimmed(archive_.calling.c_str())) return true;
   {

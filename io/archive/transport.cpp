@@ -100,8 +100,8 @@ int note_verdict(int good, X509_STORE_CTX* verified) {
   return good;
 }
 
-/// OpenSSL then refuses, during the handshake, a certificate for another machine. An address is looked for among the
-/// certificate's addresses, a name among its names, or in its common name where it has none.
+/// Makes OpenSSL refuse, during the handshake, a certificate for another machine. An address is compared with the
+/// certificate's addresses, a name with its names, or with its common name if it has none.
 void require_name(DcmTLSTransportLayer& layer, const Archive& archive, Transport& transport) {
   const std::string& name = archive.tls.name.empty() ? archive.host : archive.tls.name;
   SSL_CTX* const context = layer.getNativeHandle();

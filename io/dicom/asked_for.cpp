@@ -29,7 +29,7 @@ bool holds(const Tags& tags, std::uint32_t tag) {
   return std::binary_search(tags.begin(), tags.end(), tag);
 }
 
-/// Who and what was scanned, and how the series are told apart.
+/// The patient and the scan, and the attributes that distinguish series.
 const std::array of_series{
     DCM_SpecificCharacterSet, DCM_ImageType,       DCM_SOPClassUID,      DCM_SOPInstanceUID,   DCM_StudyDate,
     DCM_AcquisitionDate,      DCM_ContentDate,     DCM_AcquisitionTime,  DCM_ContentTime,      DCM_Modality,
@@ -59,7 +59,7 @@ const std::array of_slices{DCM_SliceThickness,
                            DCM_SharedFunctionalGroupsSequence,
                            DCM_PerFrameFunctionalGroupsSequence};
 
-/// What the voxels' numbers mean.
+/// The meaning of the voxels' values.
 const std::array of_values{DCM_LossyImageCompression,
                            DCM_LossyImageCompressionRatio,
                            DCM_Units,

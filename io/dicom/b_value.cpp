@@ -29,7 +29,7 @@ std::optional<double> b_value_of(DcmItem& dataset) {
   for (const PrivateAttribute& attribute : attributes) {
     if (text_of(dataset, DcmTagKey(attribute.group, 0x0010)) != attribute.creator) continue;
     const auto value = number_of(dataset, DcmTagKey(attribute.group, attribute.element));
-    // GE adds a thousand million to what it rounded.
+    // GE adds 1e9 to a rounded value.
     if (value && *value >= 0) return std::fmod(*value, 1e9);
   }
   return std::nullopt;

@@ -36,8 +36,8 @@ std::vector<Fragment> coded_pixels(const FileHeader& file) {
   return stretches;
 }
 
-// As they are coded; what is coded in two ways is not compared, nor what cannot be read: images that are unfit for a
-// volume have not been checked for their length.
+// Compares coded pixels. Images in different encodings are not compared, nor unreadable ones: the length of images that
+// are unfit for a volume was not checked.
 bool pixels_differ(const FileHeader& a, const FileHeader& b) try {
   if (a.transfer_syntax != b.transfer_syntax) return false;
   const InputFile file_a(a.stored_at);
@@ -53,7 +53,7 @@ bool pixels_differ(const FileHeader& a, const FileHeader& b) try {
   return false;
 }
 
-// Archives number images anew; images of one place and time that differ in number and pixels are two.
+// Archives may renumber images. Images of one position and time that differ in number and pixels are two images.
 bool same_image(const FileHeader& a, const FileHeader& b) {
   return same_place_and_time(a, b) &&
          (a.instance_number == b.instance_number || !a.defect.empty() || !b.defect.empty() || !pixels_differ(a, b));

@@ -230,7 +230,7 @@ bool is_in_dictionary(const DcmTagKey& key) {
   return known;
 }
 
-// The element of this tag and value as it is read without a VR; null where its bytes are none.
+// The element with this tag and value, read without a VR; null if the bytes are invalid.
 std::unique_ptr<DcmElement> without_vr(const DcmTagKey& tag, std::span<const std::byte> content) {
   const auto length = static_cast<std::uint32_t>(content.size());
   std::vector<std::byte> bytes;
@@ -306,7 +306,7 @@ DatasetStart find_dataset(const InputFile& file) {
     start.encoding = {syntax.getByteOrder() == EBO_BigEndian, syntax.isExplicitVR() == OFTrue};
     start.deflated = syntax.getStreamCompression() != ESC_none;
     if (start.deflated || file.size() - start.at < sizeof(FirstBytes)) return start;
-    // Some archives rewrite the dataset and not what is said of it.
+    // Some archives rewrite the dataset in another encoding but not the meta information about it.
     const auto shown = guess_encoding(FirstBytes(file, start.at));
     if (shown && shown->big_endian == start.encoding.big_endian) start.encoding = *shown;
     return start;
@@ -333,7 +333,7 @@ std::optional<PixelElement> parse_header(const InputFile& file, const std::files
                                          const DatasetStart& start, DcmDataset& dataset,
                                          bool (*wants)(std::uint32_t tag)) {
   DatasetShape shape;
-  // Pixels, and what nobody asks for, stay out: DCMTK takes a microsecond an element.
+  // Pixels and unwanted attributes are left out: DCMTK takes a microsecond for each element.
   std::vector<std::byte> wanted;
   // The syntax is given, so that DCMTK never guesses another one than was checked.
   dataset.transferInit();

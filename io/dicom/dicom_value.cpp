@@ -19,7 +19,8 @@
 namespace palpate::io::internal {
 namespace {
 
-// A dataset holds only what is asked for: what is missing from that list must not seem to be missing from the file.
+// A dataset contains only attributes in the list of is_asked_for(): one missing from the list must not seem missing
+// from the file.
 void check_asked_for(const DcmItem& item, const DcmTagKey& tag) {
   const std::uint32_t number = std::uint32_t{tag.getGroup()} << 16 | tag.getElement();
   if (item.ident() == EVR_dataset && !is_asked_for(number) && !is_asked_for_of_structures(number)) {
@@ -86,7 +87,7 @@ std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = element_of(item, tag);
   if (element == nullptr || element->isEmpty()) return {};
   if (auto* const text = dynamic_cast<DcmByteString*>(element)) {
-    // As it stands: DCMTK's lists of values are made in a time that grows with the square of their number.
+    // Taken as the raw text, because DCMTK's lists of values take a time quadratic in their number.
     char* letters = nullptr;
     Uint32 count = 0;
     if (text->getString(letters, count).bad() || letters == nullptr) return {};

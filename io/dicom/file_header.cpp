@@ -124,8 +124,8 @@ void read_format(DcmItem& item, const std::optional<PixelElement>& pixels, FileH
   }
 }
 
-// What lies outside the patient's image. MR scanners write 0 here although 0 is also what air reads: taken for padding,
-// it would hide the skin.
+// The value outside the patient's image. MR scanners write 0 here although 0 is also the value of air: as padding, it
+// would hide the skin.
 std::optional<std::pair<double, double>> padding_of(DcmItem& item, const FileHeader& header) {
   if (header.format.is_float) {
     const bool wide = header.format.bits_allocated == 64;

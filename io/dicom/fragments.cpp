@@ -30,7 +30,7 @@ struct Items {
 Items read_items(const InputFile& file, std::uint64_t at) {
   Items items;
   for (bool first = true;; first = false) {
-    // Some writers leave out the item that ends the sequence: what is there is whole.
+    // Some writers leave out the item that ends the sequence; the fragments are complete.
     if (!first && (at > file.size() || file.size() - at < 8)) {
       items.has_end = false;
       return items;

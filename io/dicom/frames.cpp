@@ -100,8 +100,8 @@ std::size_t told_apart(const SeriesSource& source, const Positions& positions, c
   return count;
 }
 
-// Only labels that tell more than those before them: acquisition numbers that alternate from slice to slice would
-// divide what an echo time has told apart.
+// Only labels that add information to those before them: acquisition numbers that alternate from slice to slice would
+// divide frames that an echo time already separates.
 std::vector<std::size_t> dividing_labels(const SeriesSource& source, const Positions& positions,
                                          const std::vector<std::size_t>& telling) {
   std::vector<std::size_t> dividing;

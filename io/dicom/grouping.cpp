@@ -116,7 +116,7 @@ std::vector<Slice> add_frames(const std::vector<const StackPart*>& parts, Series
   return read;
 }
 
-// A frame of which nothing is left costs that frame, not the others.
+// A frame without any remaining slice is dropped; the others stay.
 void drop_empty_frames(SeriesSource& source, Series& series) {
   const auto most = std::ranges::max(source.frames, {}, [](const auto& f) { return f.slices.size(); }).slices.size();
   for (std::size_t f = source.frames.size(); f-- > 0 && most > 1;) {
@@ -166,7 +166,7 @@ std::string compression_of(const Series::Details& details) {
   return " of " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " to 1";
 }
 
-// Where what is felt would not be what is thought.
+// Remarks on acquisitions whose values may feel different from what a user expects.
 void remark_on_acquisition(Series& series) {
   const Series::Details& details = series.details;
   const double apart = series.geometry.slice_spacing();
@@ -240,7 +240,7 @@ Series make_series(const SeriesSource& files, const std::vector<const StackPart*
   return series;
 }
 
-// Images that fit together, as one series or, where stacks lie in one another, as several.
+// Groups images that fit together into one series or, for interleaved stacks, into several.
 std::vector<Series> series_of(const SeriesSource& files, const std::vector<Slice>& stack,
                               std::vector<SkippedFile>& skipped) {
   const PartedStack parted = part_stack(files, stack);
@@ -286,7 +286,7 @@ void group_one_series(std::vector<FileHeader> headers, std::vector<Series>& resu
   const auto first_unusable =
       std::stable_partition(found.begin(), found.end(), [](const Series& s) { return s.usable; });
   if (first_unusable == found.begin()) {
-    // Nothing to feel: shown once, with all its files, so that nobody looks for it in vain.
+    // Without a volume the series is listed once, with all its files, so that a user finds it.
     Series& whole = *std::max_element(found.begin(), found.end(),
                                       [](const Series& a, const Series& b) { return a.files.size() < b.files.size(); });
     whole.files = all_paths;

@@ -96,7 +96,7 @@ Text decode_jpeg2000(const PixelFormat& format, std::span<const std::byte> bytes
     refuse(say("jpeg-2000-ends-early"));
   }
   if (damaged) refuse(say("jpeg-2000-holds-errors"));
-  // Sign and unused bits are treated as for every other coder, by what the file says of them.
+  // Sign and unused bits are handled as for every other coder, by the file's header.
   std::transform(component.data, component.data + values.size(), values.begin(),
                  [](OPJ_INT32 v) { return static_cast<std::uint16_t>(v); });
   return {};

@@ -28,8 +28,8 @@ void decode_whole(const PixelFormat& format, std::span<const std::byte> bytes, s
   }
 }
 
-// The stream without the zeros that some coders leave between its last pixel and the marker that ends it; nothing if
-// there are none.
+// The stream without the zeros that some coders leave between its last pixel and its end marker; nothing if there are
+// none.
 std::optional<std::vector<std::byte>> without_zero_before_end(std::span<const std::byte> bytes) {
   constexpr std::byte mark{0xFF};
   constexpr std::byte end{0xD9};

@@ -45,7 +45,7 @@ std::vector<Plane> mosaic_planes(DcmItem& dataset, FileHeader& header) {
   header.rows = header.format.rows / across;
   if (header.columns < 1 || header.rows < 1) return {};
 
-  // The position in the file is that of the first pixel of an image as large as the mosaic around the first slice's
+  // The file's position is that of the first pixel of an image as large as the mosaic, centered at the first slice's
   // center.
   Placement& place = *whole.placement;
   place.position += place.spacing_i * 0.5 * (header.format.columns - header.columns) * place.direction_i +

@@ -81,7 +81,7 @@ std::optional<Series::Window> window_of(std::optional<double> level, std::option
   return sound ? std::optional(Series::Window{*level, *width}) : std::nullopt;
 }
 
-// What is written but is no number (a decimal comma) must not pass for an attribute that is absent.
+// A text that is not a number (a decimal comma) must not count as an absent attribute.
 double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, FileHeader& header) {
   if (item == nullptr) return otherwise;
   const auto value = number_of(*item, tag);
@@ -90,7 +90,7 @@ double rescale_number(DcmItem* item, const DcmTagKey& tag, double otherwise, Fil
   return otherwise;
 }
 
-// Of the dataset, or of a frame's functional group; null if there is none.
+// `item`: the dataset, or a frame's functional group; null if there is none.
 void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
   plane.slope = rescale_number(item, DCM_RescaleSlope, 1, header);
   plane.intercept = rescale_number(item, DCM_RescaleIntercept, 0, header);
@@ -101,8 +101,8 @@ void read_rescale(DcmItem* item, FileHeader& header, Plane& plane) {
   header.unit = rescaled && (type.empty() || type == "HU") ? "HU" : "";
 }
 
-// A parametric map says what its values are by a real world value mapping (PS3.3 C.7.6.16.2.11): slope, intercept and
-// a unit of UCUM. Of several mappings, the first one that is linear.
+// A parametric map defines its values by a real world value mapping (PS3.3 C.7.6.16.2.11): slope, intercept and a UCUM
+// unit. Of several mappings, the first linear one is used.
 void read_real_world_values(const FunctionalGroups& groups, FileHeader& header, Plane& plane) {
   DcmItem* const mapping = groups.group(DCM_RealWorldValueMappingSequence);
   if (mapping == nullptr) return;
@@ -117,7 +117,7 @@ void read_real_world_values(const FunctionalGroups& groups, FileHeader& header, 
   plane.intercept = *intercept;
   at(plane.labels, Label::image_type) += text_of(*mapping, DCM_LUTLabel);
   DcmItem* const unit = first_item(*mapping, DCM_MeasurementUnitsCodeSequence);
-  // "1" and "{ratio}" are UCUM's ways to say that there is none.
+  // In UCUM, "1" and "{ratio}" mean no unit.
   const std::string code = unit != nullptr ? text_of(*unit, DCM_CodeValue) : std::string();
   header.unit = code == "1" || code.starts_with('{') ? "" : code == "[hnsf'U]" ? "HU" : code;
 }

@@ -136,7 +136,7 @@ void measure(const Stack& stack, std::vector<Class>& classes) {
   for (Class& c : classes) c.lattice = lattice_of(stack.source, c.slices, stack.reference, stack.same_place);
 }
 
-// Too few slices to be a stack of their own; what a rule tells of a few images may still hold for the others.
+// Too few slices for a stack of their own; a rule's result on a few images may still hold for the others.
 bool set_small_apart(std::vector<Class>& classes, std::size_t least, std::vector<Slice>& small) {
   std::size_t all = 0;
   for (const Class& c : classes) all += c.slices.size();
@@ -148,7 +148,7 @@ bool set_small_apart(std::vector<Class>& classes, std::size_t least, std::vector
   return classes.size() >= 2 && 5 * small.size() <= all;
 }
 
-// By the times themselves, where they are a few that many slices share; else by their order.
+// By the times themselves if they are a few that many slices share; otherwise by their order.
 std::vector<Class> by_time(const Stack& stack, const std::vector<Slice>& slices, std::string FileHeader::*time) {
   const auto value_of = [&](const Slice& s) { return stack.file(s).*time; };
   auto classes = by_value(slices, value_of, [](const auto&, std::size_t n) { return stack_name(n); });
@@ -212,7 +212,7 @@ bool divides_evenly(const Stack& stack, double distance, double step, std::size_
   return is_multiple(distance, step / static_cast<double>(passes));
 }
 
-// The step of slices of which nearly all follow one another by the same; 0 if they do not.
+// The step that nearly all slices have in common; 0 if there is none.
 double even_step_of(const Lattice& lattice) {
   std::size_t alike = 0;
   for (std::size_t k = 1; k < lattice.heights.size(); ++k) {
@@ -229,7 +229,7 @@ Verdict judge(const Stack& stack, const Rule& rule, const Class& a, const Class&
   const Overlap overlap = overlap_of(a.lattice, b.lattice, stack.same_place);
   if (overlap.slices < 2 || !a.lattice.even || !b.lattice.even) return Verdict::one_stack;
   if (overlap.coincide) {
-    // Frames are told by their labels; what only an order tells would be mixed where each reaches beyond the other.
+    // Labels separate frames; parts separated only by an order would be mixed where each extends beyond the other.
     const std::size_t fewer = std::min(a.lattice.heights.size(), b.lattice.heights.size());
     const bool mixed = rule.proof == Proof::different_time && overlap.shifted && 4 * overlap.slices >= fewer;
     return mixed || rule.proof == Proof::different_place ? Verdict::two_stacks : Verdict::one_stack;
@@ -238,14 +238,14 @@ Verdict judge(const Stack& stack, const Rule& rule, const Class& a, const Class&
   const double step = std::max(a.lattice.step, b.lattice.step);
   if (!divides_evenly(stack, overlap.distance, step, passes)) return Verdict::two_stacks;
   if (!(stack.thickness > 0)) return stack.is_ct ? Verdict::two_stacks : Verdict::unknown;
-  // MR takes thick slices by turns, too: their order is no sign of two scans where they fill an even stack.
+  // MR also acquires thick slices in turns: in an evenly filled stack their order does not mean two scans.
   if (rule.by_order && !stack.is_ct && stack.even_step > 0) return Verdict::one_stack;
-  // Each complete by itself, and slices of one within those of the other.
+  // Each is complete by itself, and the slices of one are between those of the other.
   const bool overlaps = overlap.distance < 0.9 * stack.thickness && step < 1.5 * stack.thickness;
   return overlaps ? Verdict::two_stacks : Verdict::one_stack;
 }
 
-/// Classes that make up one stack, and what was not decided.
+/// Classes that form one stack, and remaining doubts.
 struct Grouped {
   std::vector<std::vector<Class>> groups;
   std::string doubt;

@@ -23,7 +23,7 @@ std::uint32_t increment_of(DcmItem& dataset) {
   return std::uint32_t{tag.getGroup()} << 16 | tag.getElement();
 }
 
-// Frames that follow one another in time, or by something else than their place, are no stack.
+// Frames that are ordered by time, or by anything else than their position, are not a stack.
 bool follow_by_place(DcmItem& dataset) {
   constexpr std::array by_place{0x3004000CU, 0x00540080U, 0x00180088U};  // offsets, SliceVector, SpacingBetweenSlices
   const std::uint32_t increment = increment_of(dataset);

@@ -154,7 +154,7 @@ class Walk {
     return true;
   }
 
-  // Without a VR a sequence of known length looks like any other value, but for the item it starts with.
+  // Without a VR a sequence of known length looks like any other value, except for the item at its start.
   void maybe_sequence(std::uint32_t length, Encoding inside) {
     const Level level{Holds::items, at_ + length, inside, 0};
     const std::uint32_t group = number(2);

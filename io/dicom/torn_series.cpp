@@ -56,8 +56,8 @@ void join_what_was_torn_apart(std::vector<FileHeader>& headers) {
   }
 }
 
-// Anonymizers have been seen that leave the patient's id in some files of a series: a blank one is that of the others,
-// if these have one only, and no other name.
+// Some anonymizers leave the patient's id only in some files of a series. A blank id is replaced by that of the others,
+// if they have only one id and the same name.
 void fill_in_patients(std::vector<FileHeader>& headers) {
   std::map<std::string, std::vector<FileHeader*>> by_series;
   for (FileHeader& header : headers) {

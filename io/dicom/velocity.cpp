@@ -78,7 +78,7 @@ struct Direction {
   std::vector<std::string> names;
 };
 
-/// Series of one study and one grid, with what of them is velocity.
+/// The velocity series of one study and grid.
 struct Group {
   std::vector<const Series*> series;
   std::vector<Direction> directions;

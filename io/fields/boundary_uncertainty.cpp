@@ -179,8 +179,8 @@ class NormalProfile {
   std::array<Vec3, 16> around_;
 };
 
-/// The step nearest to the place from which the value rises as steeply as the gradient says: 0 where it does so at the
-/// place; empty where it does so nowhere near.
+/// The step nearest to the place at which the value rises as steeply as the gradient says: 0 if it does so at the place
+/// itself; empty if it does so nowhere near.
 std::optional<int> edge_near(const NormalProfile& profile, double slope, double gradient) {
   constexpr double alike = 0.7;
   if (slope >= alike * gradient) return 0;
@@ -224,7 +224,7 @@ double part_reached(const NormalProfile& profile, int end, int way, double middl
   return 1;
 }
 
-/// Empty if nobody can tell. `rise_noise`: standard deviation of the rise from one step to the next.
+/// Empty if there is no clear edge. `rise_noise`: standard deviation of the rise from one step to the next.
 std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double gradient, double value,
                             double rise_noise) {
   constexpr double flat = 0.1;    // of the steepest rise: there the side is reached
@@ -278,7 +278,7 @@ std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double g
   const auto half = crossing(0.5 * (low + high));
   if (!half) return std::nullopt;
   const double width = (high - low) / (steepest_seen * std::sqrt(2 * std::numbers::pi));  // steps, of the blur
-  // Sides that are thinner than the blur do not reach their values: the middle lies beyond half of what they reach.
+  // Sides that are thinner than the blur do not reach their values: the middle is more than half of the observed rise.
   const auto middle_at = [&](double seen) -> std::optional<double> {
     const double mean = 0.5 * (low + high);
     const double raised = part_reached(profile, points.back().step, 1, mean, *half, width, seen);
@@ -288,7 +288,7 @@ std::optional<Edge> edge_at(const NormalProfile& profile, double slope, double g
   constexpr double seen_wider = 1.12;  // beside a neighbor that is more like the thin side than the first is
   const auto at = middle_at(1), at_thinner = middle_at(seen_wider);
   if (!at || !at_thinner) return std::nullopt;
-  // What the disk adds to the value at the place, it adds in the middle, too.
+  // The disk's mean differs from the value at the place; the same difference applies at the middle.
   const double place = *nearest == 0 && slope > 0 ? (value - profile.at(0)) / slope : 0;
   return Edge{.beyond_mm = place - *at * profile.step_mm(),
               .rise = points.back().value - points.front().value,
@@ -346,7 +346,8 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
   if (!(result.slope > 0)) return result;
   result.noise_mm = result.noise / result.slope;
   result.sampling_mm = phase_mm(geometry, value, normal);
-  // Noise of the mean over a disk, over that of the value: interpolation and filter join the noise of neighbors.
+  // Noise of the mean over a disk, relative to that of the value: interpolation and filter correlate the noise of
+  // neighbors.
   const double joined = blur - box_blur + filter_blur(geometry, filter, tangents[0]) / (voxel * voxel);
   const double disk_noise = 1 / std::sqrt(1 + 0.5 * disk_radius * disk_radius / joined);
   const double step = profile.step_mm() / voxel;
@@ -367,8 +368,8 @@ BoundaryUncertainty uncertainty_at(const FieldSource& source, const Geometry& ge
     of_bend += part * bend.noise * result.noise_mm;
   }
   result.curvature_mm = std::isfinite(shift) ? shift : 0;
-  // The shift is measured, too: its noise is that of the second differences and of the middle.
-  // Noise moves the two ends of the edge, too: each by the step at which it looks flat.
+  // The shift is measured, too: it has the noise of the second differences and of the middle. Noise also moves the two
+  // ends of the edge, by the step at which it looks flat.
   const double of_end = rise_noise * edge->width_mm / profile.step_mm() / result.slope;
   const double of_level = std::hypot(disk_noise * result.noise_mm, of_end) / std::numbers::sqrt2;
   const double phase = result.sampling_mm * result.sampling_mm, noise = result.noise_mm * result.noise_mm;

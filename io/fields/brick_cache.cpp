@@ -103,8 +103,8 @@ bool BrickCache::read(const Block& cell, std::span<float> corners) const noexcep
 }
 
 void BrickCache::move_to(const glm::dvec3& index) noexcept {
-  // A point beyond the region is as good as one on its edge. What is no number is one, too: the worker makes indices of
-  // it.
+  // A point beyond the region is treated as one on its edge. NaN is clamped, too, because the worker computes indices
+  // from it.
   for (int axis = 0; axis < 3; ++axis) {
     const double at = index[axis] - region_.first[axis];
     point_[axis].store(std::fmin(std::fmax(at, 0.0), region_.size[axis] - 1.0), std::memory_order_relaxed);
@@ -134,7 +134,7 @@ void BrickCache::fill(const glm::ivec3& low, const glm::ivec3& high) {
   }
 }
 
-/// A free slot, or that of the brick farthest from the point if it is farther than the one to come.
+/// A free slot, or that of the brick farthest from the point, if that is farther than the new one.
 std::optional<std::size_t> BrickCache::slot_for(const glm::dvec3& middle, const glm::dvec3& point) const {
   std::optional<std::size_t> farthest;
   double distance = glm::distance(middle, point);
@@ -285,7 +285,7 @@ void BrickCache::work(const std::stop_token& stop) {
       }
     }
   } catch (const std::bad_alloc&) {
-    // Out of memory: what is there stays, the rest is computed at the sample.
+    // Out of memory: existing bricks stay, the rest is computed at the sample.
   }
 }
 

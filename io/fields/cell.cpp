@@ -48,7 +48,7 @@ bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept {
 
 namespace {
 
-/// The sum over a cell of eight numbers, in the same order as below: what has no weight adds nothing.
+/// The sum over a cell of eight numbers, in the same order as below; corners without weight add nothing.
 template <typename Stored>
 double sum_of_eight(const Stored* first, std::size_t row, std::size_t slice, const Cell& cell) noexcept {
   double sum = 0;
@@ -66,7 +66,7 @@ double sum_of_eight(const Stored* first, std::size_t row, std::size_t slice, con
 
 double trilinear_value(const Volume& volume, const Cell& cell) noexcept {
   const auto stored = [&](const auto& voxels) {
-    // Of floats only where all have a weight: what has none may be no number.
+    // For floats only if all corners have a weight: a corner without one may be NaN.
     const auto within = [](double fraction) { return fraction > 0 && fraction < 1; };
     if (cell.size == glm::ivec3(2)) {
       if (std::is_integral_v<typename std::decay_t<decltype(voxels)>::value_type> ||

@@ -29,7 +29,7 @@ struct Differences {
          0.0F;
 }
 
-/// Rows around the one in hand, at its first voxel; where there is none, the row itself.
+/// Rows around the current one, at its first voxel; a missing row is replaced by the row itself.
 template <typename Stored>
 struct Rows {
   const Stored* middle;
@@ -82,7 +82,7 @@ struct Around {
   bool before, after, above, below;
 };
 
-/// `yes` where the flag is 1, `no` where it is 0. By bits: a branch would keep the compiler from taking many at once.
+/// `yes` if the flag is 1, `no` if it is 0. With bit operations: a branch would prevent vectorization.
 [[gnu::always_inline]] inline float either(std::uint32_t flag, float yes, float no) {
   const std::uint32_t mask = 0U - flag;
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(yes) & mask) | (std::bit_cast<std::uint32_t>(no) & ~mask));
@@ -237,7 +237,7 @@ struct RowOfBlock {
   }
 };
 
-/// Weights of the slices on both sides, where they are counted.
+/// Weights of the slices on both sides, if they count.
 Weights weights_of(const glm::dmat3& basis, const Vec3& up, const Vec3& down, Sides sides, double slope) {
   const glm::dmat3 inverse = glm::inverse(basis);
   const glm::dmat3 dual = glm::transpose(inverse);

@@ -35,7 +35,7 @@ Basis basis_at(double t, double part) noexcept {
   return basis;
 }
 
-/// Four values in a row, of which some may not be there.
+/// Four values in a row, some of which may be missing.
 struct Line {
   std::array<double*, 4> value;
   std::array<bool, 4> there;
@@ -69,8 +69,8 @@ Slices slices_around(const Geometry& g, const internal::Cell& cell) noexcept {
   return {std::max(slices.lowest, 0), std::min(slices.highest, g.dimensions.z - 1)};
 }
 
-/// The 64 voxels around a cell, i fastest, as they are stored; less the one in the middle, so that rounding does not
-/// make an edge where there is none.
+/// The 64 stored voxels around a cell, i fastest, minus the middle one, so that rounding makes no edge in a uniform
+/// region.
 class Stencil {
  public:
   Stencil(const Volume& volume, const internal::Cell& cell) noexcept {
@@ -156,7 +156,7 @@ class Stencil {
   double middle_ = 0;
 };
 
-/// Unevenly spaced slices: where the weights say that the point is, and what they say is a step to the next slice.
+/// Unevenly spaced slices: the point's position according to the weights, and their step to the next slice.
 struct Uneven {
   Vec3 off{0};   ///< mm: to the point from there
   Vec3 step{0};  ///< mm

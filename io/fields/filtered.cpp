@@ -23,8 +23,8 @@ std::size_t voxels_in_slice(const Volume& v) {
   return static_cast<std::size_t>(v.geometry.dimensions.x) * static_cast<std::size_t>(v.geometry.dimensions.y);
 }
 
-/// Rescaled values of a slice. Padding and what is no finite float are left out: the smallest of the others stands for
-/// them. `left_out` is empty if there is none.
+/// Rescaled values of a slice. Padding and values that are not finite are replaced by the smallest of the others.
+/// `left_out` marks them; empty if there are none.
 struct Slice {
   cv::Mat values;         // CV_32F
   cv::Mat left_out;       // CV_8U, 255 where a voxel is
@@ -70,7 +70,7 @@ std::pair<int, int> reached(const Geometry& g, int k, double sigma_mm) {
   return {first, last};
 }
 
-/// How much of the stack a slice stands for, mm: half of the way to its neighbors.
+/// The part of the stack that a slice represents, mm: half of the way to its neighbors.
 double share_mm(const Geometry& g, int k) {
   const int before = std::max(k - 1, 0), after = std::min(k + 1, g.dimensions.z - 1);
   return before == after ? 1 : apart_mm(g, before, after) / (after - before);
@@ -110,7 +110,7 @@ PaddingRange rescaled_padding(const Volume& v) {
   return std::pair{std::min(one, other), std::max(one, other)};
 }
 
-/// What was left out as it was; and what is not padding does not become it.
+/// Restores the voxels that were left out, and keeps the others from becoming padding.
 void keep_left_out(const Volume& v, int k, const cv::Mat& left_out, const PaddingRange& range, cv::Mat& values) {
   if (!range && left_out.empty()) return;
   const auto above =

@@ -38,7 +38,7 @@ using internal::space_sums;
 constexpr int cell_lanes = 4;
 constexpr int block_lanes = 8;
 
-/// What a single cell may need, at the largest radius: on the stack, since the tick may not allocate.
+/// The largest scratch memory for a single cell: on the stack, since the tick may not allocate.
 constexpr int cell_floats = [] {
   constexpr int reach = 2 * internal::largest_radius + 2;
   constexpr int row = cell_lanes + 2 * internal::largest_radius;
@@ -189,7 +189,7 @@ struct GradientKernel::Weights {
 };
 
 double largest_gradient_scale_mm(const Geometry& geometry) noexcept {
-  // Of the reach, all but what the nearest slices of a tilted stack are displaced by; these always count.
+  // The kernel's reach without the displacement of a tilted stack's nearest slices, which always count.
   const Vec3 normal = glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j));
   const auto& slices = geometry.slice_positions;
   const std::array<std::pair<Vec3, double>, 2> rows{

@@ -32,7 +32,7 @@ float* PaddedFits::plane_row(int slice, int j) const {
                              (weight_plane_sums * tile_width);
 }
 
-/// Of all of the tile's rows that row r of those around it adds to.
+/// The chunks needed by any of the tile's rows to which row r contributes.
 Chunks PaddedFits::needed_in_row(int slice, int r) const {
   Chunks needed = 0;
   for (int j = std::max(r - 2 * kernel_.radius.y, 0); j <= std::min(r, tile_.size.y - 1); ++j) {
@@ -69,7 +69,7 @@ const float* PaddedFits::of_row(int k, int j) {
   pairs_.clear();
   const auto& all = kernel_.of_slice[static_cast<std::size_t>(tile_.first.z + k)];
   for (std::size_t n = 0; n < all.size(); ++n) {
-    // Of a pair the weight is that of the slice above, which comes second.
+    // A pair uses the weight of the slice above, which comes second.
     const Contribution& c = all[n + (all[n].paired ? 1 : 0)];
     WeightPair pair{plane_row(all[n].slice, j), nullptr, c.weight, c.offset[2]};
     if (all[n].paired) {

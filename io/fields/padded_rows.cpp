@@ -29,8 +29,8 @@ template <typename Stored, typename Out, typename Of>
   return any != 0;
 }
 
-/// Whether any is padding where none is marked, or none where it is. In lanes no wider than what is stored, as twice as
-/// many are looked at at once then.
+/// Whether any marks differ from the padding. In lanes no wider than the stored type, since twice as many are then
+/// tested at once.
 template <typename Stored, typename Mark>
 [[gnu::always_inline]] inline bool any_differs(const Stored* __restrict stored, int count,
                                                const StoredPadding<Stored>& padding, const Mark& mark) {
@@ -70,7 +70,7 @@ template <typename Stored>
       stored, count, padding, [](int) __attribute__((always_inline)) { return 1; });
 }
 
-/// By bits: 0 times what is not a number would not be 0.
+/// With bit operations: 0 times NaN would not be 0.
 constexpr auto value_of = [](auto stored, std::uint32_t is_padding) __attribute__((always_inline)) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(stored)) & (is_padding - 1));
 };

@@ -8,7 +8,7 @@
 namespace palpate::io::internal {
 namespace {
 
-/// What a voxel of a row counts as: a value, padding, or (beyond the volume) neither.
+/// The type of a voxel in a row: a value, padding, or (beyond the volume) neither.
 enum Mark : std::uint8_t { value = 0, padding = 1, neither = 2 };
 
 /// Eight marks at a time.

@@ -23,8 +23,8 @@ constexpr Four zero{}, one{1, 1, 1, 1};
 template <typename Sum, typename Use>
 [[gnu::always_inline]] inline void fit_four(const Sum& sum, double scale_mm, const glm::dmat3& to_patient,
                                             const Use& use) {
-  // Spread that rounding in single precision alone may leave where there is none is 1e-6 of scale^2; slices 5 mm apart
-  // at a scale of 1.5 mm still have 0.08.
+  // Single-precision rounding alone leaves a spread of up to 1e-6 of scale^2 where there is none; slices 5 mm apart at
+  // a scale of 1.5 mm still have 0.08.
   constexpr double least_spread = 1e-4;
   const double least = least_spread * scale_mm * scale_mm;
   Four total, per_total, p, q, w, pp, pq, qq, pw, qw, ww;

@@ -31,8 +31,8 @@ Taps make_taps(double scale, double spacing, double shift) {
   return taps;
 }
 
-/// Half the distance between the neighbors: what a slice stands for in an integral over uneven ones. A missing slice
-/// is nobody's share, so no side counts for more than the usual distance.
+/// Half the distance between the neighbors: the part of an integral over uneven slices that a slice represents. A
+/// missing slice belongs to none, so each side counts for at most the usual distance.
 double thickness_of(const std::vector<double>& heights, std::size_t k, double usual) {
   const double below = k > 0 ? heights[k] - heights[k - 1] : usual;
   const double above = k + 1 < heights.size() ? heights[k + 1] - heights[k] : usual;

@@ -24,8 +24,8 @@ std::vector<TapPair> pairs_of(const Taps& taps) {
   return pairs;
 }
 
-/// A block in tiles of tile_width voxels along a row, slice by slice: what a tile's voxels share stays in the nearer
-/// caches.
+/// Computes a block in tiles of tile_width voxels along a row, slice by slice, so that shared data of a tile stay in
+/// the nearest caches.
 template <typename Stored>
 class StraightBlock {
  public:
@@ -146,7 +146,7 @@ class StraightBlock {
     }
   }
 
-  /// Where there are no values in reach, `count` sums of a row are 0.
+  /// Where no values are within reach, `count` sums of a row are 0.
   void clear_around(float* sums, int count, const Span& valued) const {
     const int width = whole_lanes(tile_.size.x);
     if (valued.begin == 0 && valued.end == width) return;
@@ -164,7 +164,7 @@ class StraightBlock {
     middle_ = {all[0].weight, all[0].weight * all[0].offset[2]};
     for (std::size_t n = 1; n < all.size() && even_; n += 2) {
       even_ = all[n].paired;
-      // Of a pair the weight is that of the slice above, which comes second.
+      // A pair uses the weight of the slice above, which comes second.
       if (even_) between_.push_back({all[n + 1].weight, all[n + 1].weight * all[n + 1].offset[2]});
     }
     at_once_ = 1;

@@ -12,7 +12,7 @@ std::string element(std::uint32_t tag, const std::string& value) {  // implicit 
 
 namespace {
 
-/// `length_at`, `length_bytes`: where in an element's eight bytes of head its length stands, and in how many.
+/// `length_at`, `length_bytes`: position and size of the length within an element's eight-byte header.
 Elements parse(const std::string& text, std::size_t length_at, int length_bytes) {
   Elements result;
   for (std::size_t at = 0; at + 8 <= text.size();) {

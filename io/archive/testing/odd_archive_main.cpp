@@ -52,7 +52,7 @@ void drip(int socket, int context, const std::string& study) {
   }
 }
 
-/// Connects to the store service on a port of this machine, under an AE title, and asks for an association. -1: nobody
+/// Connects to the store service on a port of this machine, under an AE title, and requests an association. -1: nothing
 /// listens there.
 int call(int port, std::string calling, std::string called = "PALPATE") {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -92,7 +92,8 @@ void call_hesitantly(int port) {
   close(socket);
 }
 
-/// What the store service says to someone whom it does not know, or who does not know it: 3 rejects, and why.
+/// The store service's answer to a caller that it does not know, or that calls it by a wrong name: 3 rejects, and the
+/// reason.
 void call_as_stranger(int port, bool knows_us) {
   const int socket = knows_us ? call(port, "STRANGER") : call(port, "ODD", "SOMEONE");
   if (socket < 0) return;
@@ -102,8 +103,8 @@ void call_as_stranger(int port, bool knows_us) {
   close(socket);
 }
 
-/// Talks to the store service as an archive does, and prints what it answers: to an echo, to an image of another
-/// class than the first context's, and to a release or, in its place, to a question that it has no answer to.
+/// Talks to the store service as an archive does, and prints its answers: to an echo, to an image of a class other than
+/// the first context's, and to a release or, instead, to a request that it does not support.
 void talk(int port, const std::string& study, bool asks) {
   const int socket = call(port, "ODD");
   if (socket < 0) return;
@@ -206,7 +207,7 @@ class Serving {
     respond(socket_, request, behavior_ == "refuses-echo" ? 0x0122 : 0);
   }
 
-  /// The answer to another question than the one that was asked.
+  /// The answer to a different request.
   void echo(Request request) {
     request.field = 0x30;
     respond(socket_, request, 0);
@@ -252,7 +253,7 @@ class Serving {
     respond(socket_, request, 0);
   }
 
-  /// Three of each level, in no order; what it says of one is its own.
+  /// Three of each level, unsorted, each with its own data.
   void find_several(const Request& request) {
     struct One {
       const char *date, *number, *images, *description;
@@ -382,7 +383,7 @@ int main(int count, char** arguments) {
   }
   std::printf("%d\n", ntohs(address.sin_port));
   std::fflush(stdout);
-  // Ended with its test, also where it is in the midst of something.
+  // Ends with its test, whatever it is doing.
   std::thread([] {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     poll(&input, 1, -1);

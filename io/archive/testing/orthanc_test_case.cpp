@@ -55,7 +55,7 @@ std::string refusal(const std::function<void()>& act) {
 }
 
 void OrthancTest::fill(const std::string& series) {
-  // -xs offers JPEG Lossless, -xf only what is said, else what is uncompressed.
+  // -xs offers JPEG Lossless, -xf only the options given; the default is uncompressed.
   const std::string command = "storescu -aet PALPATE -aec ORTHANC " + std::string(series == compressed ? "-xs " : "") +
                               "+sd +r 127.0.0.1 " + std::to_string(archive().port) + " " +
                               (made_series() / series).string();

@@ -10,8 +10,8 @@
 namespace palpate::io {
 namespace {
 
-/// What brings the values into the range that OpenCV has tables for: below 1e-7 it filters nothing, and where the range
-/// is no float it reads beyond them. A power of two changes no digit.
+/// Scales the values into the range of OpenCV's tables: below 1e-7 it filters nothing, and if the range overflows a
+/// float it reads beyond them. A power of two changes no digit.
 double factor_for_tables(const cv::Mat& values) {
   constexpr double least = 1e-3, most = 1e30;
   double low = 0, high = 0;
