@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A DICOMDIR that is named itself stands for the folder it describes; what it says of that folder is not believed.
+// A named DICOMDIR stands for the folder that it describes; its own records are not trusted.
 fs::path meant_by(const fs::path& path) {
   std::string name = path.filename().string();
   for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -34,7 +34,7 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<S
     const auto status = fs::status(path, error);
     if (fs::is_regular_file(status)) files.push_back(path);
     if (!fs::is_directory(status)) continue;
-    // Folders below that may not be read are set apart; the one that was named is refused.
+    // An unreadable subfolder is skipped; an unreadable named folder is refused.
     static_cast<void>(fs::directory_iterator(path, error));
     auto entry = fs::recursive_directory_iterator();
     if (!error) entry = {path, fs::directory_options::skip_permission_denied, error};

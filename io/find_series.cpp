@@ -31,13 +31,13 @@ struct KnownFile {
   std::string image_type;
 };
 
-/// A file as a user is told it, and where its bytes are.
+/// A file's path as shown to the user, and the file with its bytes.
 struct File {
   fs::path path, stored_at;
   std::shared_ptr<const void> keeper;  ///< of what was unpacked
 };
 
-/// What a file turned out to be: an image, or set apart for a reason, or an archive whose files are looked at instead.
+/// The type of a file: an image, a skipped file with a reason, or an archive whose files are examined instead.
 struct Looked {
   File file;
   std::optional<internal::FileHeader> header;
@@ -49,7 +49,8 @@ struct Looked {
   bool is_known() const { return header || series || reason != say("not-a-dicom-file"); }
 };
 
-// NIfTI and its like. One that lies in a folder may be a map of labels beside its scan; one that was named is meant.
+// NIfTI and similar files. In a folder such a file may be a label map beside its scan; a file named by the user is a
+// scan.
 void look_for_voxels(Looked& one, bool is_named) {
   std::optional<VoxelFile> file = open_voxel_file(one.file.stored_at, one.file.path);
   if (!file) return;
@@ -116,7 +117,7 @@ std::vector<Looked> look_into(Looked& archive, const Progress& progress) {
   return inside;
 }
 
-/// All files, also those of archives among them.
+/// Examines all files, including those in archives.
 std::vector<Looked> look_at_files(const std::vector<fs::path>& files, std::span<const fs::path> named,
                                   const Progress& progress) {
   std::vector<Looked> all;

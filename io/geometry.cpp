@@ -9,8 +9,8 @@
 namespace palpate::io {
 namespace {
 
-// Far below what a position in mm can resolve, far above the rounding of the transform: a voxel's center comes back as
-// an integer, so that its value is not blended with its neighbors'.
+// Far below the resolution of a position in mm, far above the rounding of the transform: a voxel's center becomes an
+// integer index, so that its value is not blended with its neighbors'.
 constexpr double snap = 1e-9;
 
 double snapped(double index) noexcept {

@@ -103,7 +103,7 @@ Geometry geometry_of_slices(Geometry whole, int first, int count) {
   return whole;
 }
 
-/// What the stored numbers mean: rescale and padding.
+/// The meaning of the stored numbers: rescale and padding.
 void describe_values(const Reading& whole, Storage storage, Volume& volume) {
   const Slices& slices = whole.frame.slices;
   if (storage != Storage::as_float) {

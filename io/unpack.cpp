@@ -52,7 +52,7 @@ class Limit {
     if (!unknown) most_ = std::min(most_, room.available / 2);
     left_ = most_;
   }
-  /// What an entry says of its size is refused before it is unpacked; what comes out counts.
+  /// Refuses an entry by its stated size before it is unpacked; the unpacked size counts.
   void check(std::uintmax_t bytes) const {
     if (bytes > left_) throw DicomError(say("archive-holds-too-much", most_ >> 20U));
   }
@@ -82,7 +82,8 @@ void write_entry(archive* reader, const fs::path& to, Limit& limit, const Progre
   if (!file) throw DicomError(say("archive-does-not-fit-on-the-disk", to.parent_path().string()));
 }
 
-// What a user reads, and nothing is opened by. A gzipped file says no name: it is its archive's, without the ending.
+// The name shown to the user; it is not used to open files. A gzipped file without a name gets its archive's, without
+// the ending.
 fs::path shown_as(const fs::path& archive, archive_entry* entry, bool is_raw) {
   if (is_raw) return archive.stem();
   const char* const name = archive_entry_pathname(entry);

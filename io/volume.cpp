@@ -55,7 +55,7 @@ Extent<std::uint16_t> extent_of(std::span<const std::uint16_t> voxels) {
 
 using Padding = std::optional<std::pair<double, double>>;
 
-/// Of stored values: exact where they are whole numbers.
+/// For stored values: exact if they are integers.
 template <typename Stored>
 struct Tally {
   static constexpr bool is_whole = std::is_integral_v<Stored>;

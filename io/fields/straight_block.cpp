@@ -244,7 +244,7 @@ class StraightBlock {
     return span_of(valued & ~again, tile_.size.x);
   }
 
-  /// Again, those of row j that have padding in their neighborhoods.
+  /// Computes the voxels of row j with padding in their neighborhoods again.
   void fit_beside_padding(int k, int j, glm::vec3* gradients, std::ptrdiff_t apart_slices) {
     const std::ptrdiff_t row = row_floats * j;
     for (int s = 0; s < at_once_; ++s, gradients += apart_slices) {

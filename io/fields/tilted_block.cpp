@@ -128,7 +128,7 @@ class TiltedBlock {
 
   float* padded_row(int j) const { return padded_fits_->get() + fit_rows * tile_width * j; }
 
-  /// The fits of those in slice_ that have padding in their neighborhoods, by the sums of moments.h.
+  /// The fits of the voxels in slice_ with padding in their neighborhoods, from the sums of moments.h.
   void fit_padded(int k) {
     Chunks any = 0;
     int first = tile_.size.y, last = -1;

@@ -33,8 +33,7 @@ Vec3 interpolated_vector(const VectorComponents& vectors, const internal::Cell& 
   return vectors.to_patient * along;
 }
 
-/// What is known of a cell's corners: their gradients and, from a brick that holds them, the values on both sides of
-/// the boundary there.
+/// The data of a cell's corners: their gradients and, if a brick holds them, the values on both sides of the boundary.
 struct Corners {
   static constexpr int with_sides = 5;  ///< numbers a corner; otherwise 3
   std::array<float, std::size_t{8} * with_sides> numbers;
@@ -44,7 +43,7 @@ struct Corners {
   Vec3 gradient(std::size_t n) const noexcept { return {at(n)[0], at(n)[1], at(n)[2]}; }
 };
 
-/// Weighted by how much of a boundary each corner shows: what lies flat has no two sides.
+/// Weighted by the strength of the boundary at each corner: in a flat region there are no two sides.
 LowHigh interpolated_low_high(const Volume& volume, const internal::Cell& cell, const Corners& corners,
                               double scale_mm) noexcept {
   double low = 0, high = 0, sum = 0;
@@ -85,7 +84,7 @@ Vec3 interpolated_gradient(const internal::Cell& cell, const Corners& corners) n
   return gradient;
 }
 
-/// The eigenvector of least curvature of the interpolated Hessian; zero where none stands out or it is not known.
+/// The eigenvector of least curvature of the interpolated Hessian; zero if none is distinct, or the Hessian is unknown.
 Vec3 tube_direction(const internal::Cell& cell, const std::array<GradientKernel::Hessian, 8>& corners) noexcept {
   std::array<double, 6> h{};
   std::size_t n = 0;
@@ -253,7 +252,7 @@ void VolumeFields::prepare(const Vec3& position_mm, double distance_mm) const {
   const Vec3 reach = distance_mm / Vec3(g.spacing_i, g.spacing_j, between);
   const Vec3 last(g.dimensions - 1);
   const Vec3 index = g.to_index(position_mm);
-  // What is no number is 0 here, which glm::clamp() would leave as it is.
+  // NaN becomes 0 here; glm::clamp() would leave it.
   const glm::ivec3 low(glm::fmin(glm::fmax(index - reach, Vec3(0)), last));
   const glm::ivec3 high(glm::fmin(glm::fmax(index + reach, Vec3(0)), last));
   if (bricks_) bricks_->fill(low, high);

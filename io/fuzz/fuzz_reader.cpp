@@ -76,8 +76,8 @@ void read_all(const fs::path& path) {
   }
 }
 
-/// Decodes structures as they are when they are used. What is decoded is checked by then: its distance, which would
-/// take seconds here, is not computed.
+/// Decodes structures as when they are used. By then all checks are done; so the distance, which would take seconds
+/// here, is not computed.
 void read_structures(const fs::path& path) {
   constexpr std::size_t most_structures = 8;
   std::size_t count = 0;

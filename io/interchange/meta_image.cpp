@@ -52,7 +52,7 @@ VoxelFile::Number number_of(const std::string& type) {
   return found->second;
 }
 
-// Three numbers of a field, or what stands for them where it is not there.
+// Three numbers of a field, or their default if it is missing.
 Vec3 three(const Fields& fields, const std::initializer_list<std::string>& names, const Vec3& otherwise) {
   const std::string text = field(fields, names);
   if (text.empty()) return otherwise;
@@ -74,7 +74,7 @@ VoxelMap map_of(const Fields& fields, std::size_t axes) {
   return map;
 }
 
-// ITK takes 1 mm, no turn and the origin for what is not said. So it is here, with a word.
+// For missing fields ITK assumes 1 mm, no rotation and the origin. So do we, with a remark.
 void remark_on_what_is_not_said(const Fields& fields, VoxelFile& file) {
   std::string missing;
   const auto look = [&](const std::initializer_list<std::string>& names) {

@@ -127,7 +127,7 @@ std::vector<std::uint8_t> start_of(const VoxelFile& file, std::size_t count) {
   return bytes;
 }
 
-/// What lies between header and voxels.
+/// The bytes between header and voxels.
 std::string extensions_of(VoxelFile file, std::size_t header_bytes) {
   const std::size_t end = std::min(static_cast<std::size_t>(file.first), header_bytes + most_extension);
   if (end <= header_bytes) return {};

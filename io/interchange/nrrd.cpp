@@ -77,7 +77,7 @@ Vec3 to_lps(const std::string& given) {
   throw DicomError(say("nrrd-without-a-place"));
 }
 
-/// The part in space of a vector in the file's space; nothing where it has none, or is no such vector.
+/// The spatial part of a vector in the file's space; nothing if it has none, or is not such a vector.
 std::optional<Vec3> in_space(const std::vector<double>& vector) {
   if (vector.size() != 3 && vector.size() != 4) return std::nullopt;
   const Vec3 part(vector[0], vector[1], vector[2]);
@@ -111,7 +111,7 @@ double mm_of(const std::string& unit) {
   return found->second;
 }
 
-/// "space units": one in quotes for each axis of the space; mm where it is not said.
+/// "space units": a quoted unit for each axis of the space; mm if missing.
 Vec3 mm_along_axes(const Fields& fields) {
   const std::string text = field(fields, {"space units"});
   constexpr char quote = '\x22';
@@ -146,7 +146,7 @@ std::map<int, LabelName> names_in(const Fields& fields) {
   }
 }
 
-/// The direction of each axis in the file's space; nothing for one that is none in space.
+/// The direction of each axis in the file's space; nothing for a non-spatial axis.
 std::vector<std::optional<Vec3>> directions_of(const Fields& fields) {
   const std::string text = field(fields, {"space directions"});
   std::vector<std::optional<Vec3>> directions;
@@ -160,7 +160,7 @@ std::vector<std::optional<Vec3>> directions_of(const Fields& fields) {
   return directions;
 }
 
-/// The axes of a file: three in space, and at most one that counts something else, as the fastest or as the slowest.
+/// The axes of a file: three in space, and at most one other axis, as the fastest or the slowest.
 struct Axes {
   std::vector<double> sizes;  ///< of those in space
   std::vector<Vec3> along;
@@ -189,8 +189,8 @@ Axes axes_of(const Fields& fields) {
   return axes;
 }
 
-// What the other axis counts: volumes one behind the other where it is the slowest; where it is the fastest, layers of
-// labels, the parts of a color, or volumes, as its kind says.
+// The meaning of the other axis: consecutive volumes if it is the slowest; if it is the fastest, layers of labels,
+// parts of a color, or volumes, depending on its kind.
 void read_other_axis(const Fields& fields, const Axes& axes, VoxelFile& file) {
   if (!axes.other) return;
   const bool are_layers = *axes.other == 0 && fields.contains("Segment0_Layer");

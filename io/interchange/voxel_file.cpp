@@ -106,7 +106,7 @@ void check_size(const VoxelFile& file) {
     internal::check_inflation(needed, present);
     return;
   }
-  // A number in words has a digit and a gap at least, but for the last one.
+  // A number in text form has at least a digit and a separator, except the last one.
   const std::uint64_t least = file.packing == Packing::ascii ? 2 * voxels - 1 : in_words ? 2 * needed : needed;
   if (present < least + static_cast<std::uint64_t>(file.first)) throw DicomError(say("voxels-end-early"));
 }

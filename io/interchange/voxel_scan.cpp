@@ -53,7 +53,7 @@ double luma_at(Number number, const std::uint8_t* from) {
                     0.114 * number_at(number, from + 2 * next));
 }
 
-/// What a reader finds in the numbers.
+/// Unusual numbers that a reader finds.
 struct Oddities {
   bool any_hole = false;     ///< what is no number
   bool any_rounded = false;  ///< integers of more digits than a float has

@@ -14,7 +14,7 @@
 namespace palpate::io {
 namespace {
 
-/// The frame's images; null if there are none of its own.
+/// The frame's images; null if it has none of its own.
 const SeriesSource::Frame* frame_of(const SeriesSource& source, int frame, const SeriesSource*& owner) {
   const auto n = static_cast<std::size_t>(frame);
   owner = &source;

@@ -15,7 +15,7 @@
 namespace palpate::io {
 namespace {
 
-// DICOM PS3.3 C.7.1.1, C.7.2.1: all of type 1 and 2, and those that archives match by.
+// DICOM PS3.3 C.7.1.1, C.7.2.1: all attributes of type 1 and 2, and those by which archives match.
 const DcmTagKey copied[] = {DCM_PatientName, DCM_PatientID,        DCM_IssuerOfPatientID, DCM_PatientBirthDate,
                             DCM_PatientSex,  DCM_StudyInstanceUID, DCM_StudyDate,         DCM_StudyTime,
                             DCM_StudyID,     DCM_AccessionNumber,  DCM_StudyDescription,  DCM_ReferringPhysicianName};

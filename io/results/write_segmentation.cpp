@@ -77,7 +77,7 @@ void add_shared_groups(const Geometry& geometry, DcmSegmentation& document) {
   FGPixelMeasures measures;
   succeed(measures.setPixelSpacing(text(geometry.spacing_j) + "\\" + text(geometry.spacing_i)));
   succeed(measures.setSliceThickness(text(geometry.slice_spacing())));
-  // Of uneven slices there is no such number: their positions alone say where they are.
+  // Uneven slices have no spacing: only their positions are written.
   if (geometry.uniform) succeed(measures.setSpacingBetweenSlices(text(geometry.slice_spacing())));
   succeed(document.addForAllFrames(*orientation));
   succeed(document.addForAllFrames(measures));

@@ -28,7 +28,7 @@ class Surroundings {
     return numbers_[static_cast<std::size_t>(((k + newton_margin) * newton_width + j + newton_margin) * newton_width +
                                              i + newton_margin)];
   }
-  /// At a node's coordinates in the brick; the slope is per mm. NaN where it is not known.
+  /// At a node's coordinates in the brick; the slope is per mm. NaN if unknown.
   double sample(const Vec3& node, Vec3& slope) const {
     const Vec3 base = glm::floor(node);
     const glm::ivec3 first = glm::ivec3(base) - 1 + newton_margin;
@@ -122,7 +122,7 @@ void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, 
         }
         Vec3 found;
         if (newton(around, spacing, {i, j, k}, found)) {
-          // It lies on the surface; where it is the nearer one, or close to it, it is also the more exact.
+          // This point is on the surface. If it is the nearer one, or nearly so, it is also more exact.
           const Vec3f point(corner + found);
           const Vec3f away = Vec3f(node) - point;
           if (best.x == nowhere || glm::dot(away, away) < 1.2F * least + 0.01F) {
@@ -136,7 +136,8 @@ void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, 
 
 namespace {
 
-/// Takes the neighbors' closest points over where they are closer: forth and back through a brick. Whether any changed.
+/// Takes over neighbors' closest points that are nearer: forwards and backwards through a brick. Returns whether any
+/// changed.
 bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::size_t slot, Vec3f* closest) {
   constexpr std::ptrdiff_t side = brick_edge + 2;
   std::array<Vec3f, static_cast<std::size_t>(side) * side * side> around;
@@ -185,7 +186,7 @@ bool spread(const NodeBricks& bricks, const std::vector<Vec3f>& before, std::siz
   return changed;
 }
 
-/// Whether a brick or one that shares a face with it changed.
+/// Whether a brick or one that shares a face with it has changed.
 bool changed_around(const NodeBricks& bricks, const std::vector<char>& changed, std::size_t slot) {
   const glm::ivec3 place = bricks.place[slot];
   for (int side = 0; side < 6; ++side) {

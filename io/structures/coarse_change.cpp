@@ -31,7 +31,7 @@ std::vector<Vec3f> thinned(const std::vector<Vec3f>& points, const NodeLattice& 
 
 constexpr int block = 4;  // nodes along i and j that share their stretches
 
-/// The stretches one of which is the nearest to any place within so many mm of a middle.
+/// The stretches that can be nearest to a place within so many mm of a middle.
 std::vector<Stretch> nearest_around(std::span<const Stretch> where, const Vec3& middle, double within_mm) {
   std::vector<double> away(where.size());
   std::ranges::transform(where, away.begin(), [&](const Stretch& one) { return distance_to(one, middle); });

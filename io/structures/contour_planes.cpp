@@ -122,7 +122,7 @@ OutlinePlanes spaced_for(const ContourStack& stack, double reach_mm) {
   NodeLattice& lattice = planes.lattice;
   lattice.axes = stack.axes;
   const double in_plane = std::clamp(stack.step_mm, finest_contour_mm, 1.0);
-  // A power of two: so a lattice of every second node, and of every second of those, still has all planes.
+  // A power of two, so that the lattices of every second and every fourth node also contain all planes.
   const unsigned parts =
       std::bit_ceil(static_cast<unsigned>(std::clamp(std::ceil(stack.step_mm / coarsest_mm), 1.0, 8.0)));
   planes.coarser = std::countr_zero(parts);
@@ -138,12 +138,13 @@ struct Level {
   const ContourStack::Plane* plane = nullptr;
 };
 
-/// Ascending: the contours' planes, those that are missing between them, and `beyond` more at each end.
+/// Ascending: the contours' planes, the missing ones between them, and `beyond` more at each end.
 std::vector<Level> levels_of(const ContourStack& stack, const Rectangle& all, int beyond,
                              const DistanceOptions& options) {
   std::vector<Level> levels;
   const glm::dvec2 middle = 0.5 * (all.low + all.high);
-  // Where the scan ends too, nobody has seen whether it goes on: there it goes on as it is at its end.
+  // If the scan ends there, too, it is unknown whether the structure goes on: it is continued with the shape of its
+  // end.
   const auto add_beyond = [&](double height, const ContourStack::Plane& end) {
     levels.push_back({height, is_seen(options, stack.axes * Vec3(middle, height)) ? nullptr : &end});
   };

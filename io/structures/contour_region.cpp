@@ -61,7 +61,7 @@ FilledContour filled_contour(const ContourPolygon& polygon, const glm::dvec2& ba
     }
     path.emplace_back(std::llround(at.x), std::llround(at.y));
   }
-  // How many edges a line meets, on average: what contours that somebody drew are far from.
+  // The average number of edges that a line crosses; in drawn contours it is small.
   double up_and_down = 0;
   for (std::size_t n = 0; n < polygon.size(); ++n)
     up_and_down += std::abs(polygon[n].y - polygon[n == 0 ? polygon.size() - 1 : n - 1].y);
@@ -108,7 +108,7 @@ int take_away_doubled(std::vector<FilledContour>& contours) {
   return doubled;
 }
 
-/// Turns those that lie within an odd number of others, and finds those that meet otherwise.
+/// Reverses contours inside an odd number of others, and finds contours that touch or cross.
 void turn_holes(std::vector<FilledContour>& contours, bool& meet, bool& overlap) {
   constexpr std::size_t most_points = 2'000'000;
   std::size_t points = 0;

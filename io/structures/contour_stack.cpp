@@ -33,8 +33,7 @@ Vec3 normal_along(const Contour& contour) {
   return sum;
 }
 
-/// Unit. That of the largest contour, with those that are nearly parallel to it: so digits that were rounded away
-/// matter less.
+/// The unit normal of the largest contour and of those nearly parallel to it, so that rounded digits matter less.
 Vec3 normal_of(const std::vector<Contour>& contours) {
   std::vector<Vec3> normals;
   normals.reserve(contours.size());
@@ -131,7 +130,7 @@ void warn_of_uneven_steps(ContourStack& stack) {
                                internal::millimeters(most_missing * stack.step_mm)));
 }
 
-/// What the contours of each plane fill.
+/// Computes the region filled by the contours of each plane.
 void fill_planes(ContourStack& stack, bool is_exclusive) {
   int doubled = 0, overlapping = 0;
   for (ContourStack::Plane& plane : stack.planes) {

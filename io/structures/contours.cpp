@@ -35,7 +35,7 @@ struct Roi {
   ContourRule rule;
 };
 
-/// How far the scan's voxels reach along the normal of the contours: of those axes that lie nearest to it.
+/// The extent of the scan's voxels along the normal of the contours: of the axes nearest to it.
 double thickness_of_voxels(const Geometry& scan, const Vec3& normal) {
   const Vec3 across = glm::cross(scan.direction_i, scan.direction_j);
   double best = 0, thickness = 0;

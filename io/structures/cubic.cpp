@@ -7,8 +7,8 @@
 namespace palpate::io {
 namespace {
 
-// A row's four numbers side by side, two in a register: they are weighed along the row last of all. Each plane is
-// summed for itself, so that it is weighed once and not row by row.
+// A row's four numbers side by side, two in a register. They are weighted along the row last. Each plane is summed
+// separately, so that it is weighted once and not row by row.
 using Two [[gnu::vector_size(16)]] = double;
 struct Row {
   Two half[2] = {};

@@ -48,7 +48,7 @@ class PlaneWindow {
   std::map<std::size_t, PlaneDistances> held_;
 };
 
-/// Squared distances of a brick's nodes to what is inside and outside.
+/// Squared distances of a brick's nodes to the inside and the outside.
 struct BrickDistances {
   std::array<float, brick_nodes> to_inside;
   std::array<float, brick_nodes> to_outside;

@@ -27,8 +27,8 @@ struct Nearest {
   float f = 0;
 };
 
-/// Signed distances of a brick's nodes and of those around it. A node that no brick holds takes the closest point of
-/// the nearest one that a brick does.
+/// Signed distances of a brick's nodes and of the nodes around it. A node outside all bricks uses the closest point of
+/// the nearest node in a brick.
 void fill_brick(const NodeBricks& bricks, const std::vector<Nearest>& nearest, std::size_t slot, float* into) {
   constexpr std::ptrdiff_t side = brick_edge + 4;
   std::vector<Nearest> around(static_cast<std::size_t>(side) * side * side);

@@ -26,7 +26,7 @@ constexpr double alike_part = 0.25;       // of the usual rise over an edge
 constexpr double beyond_edge_mm = 2.5;    // where the tissue on a side of an edge is read
 constexpr double mean_of_mm = 1;          // of a tissue: the mean of values so far apart
 
-/// What the scan says at a place of the outline.
+/// The scan's edge at a place of the outline.
 struct Asked {
   OutlinePlace at;
   bool is_asked = false;           ///< all of the way lies in the scan, and the place is on no island or hole
@@ -134,7 +134,7 @@ class PlaceGrid {
   std::map<std::array<int, 3>, std::vector<std::size_t>> cells_;
 };
 
-/// A place is doubtful only if half of those around it are doubtful alike.
+/// A place is doubtful only if half of its neighbors are doubtful in the same way.
 std::vector<Doubt> confirmed(const std::vector<Doubt>& doubts, const PlaceGrid& grid) {
   std::vector<Doubt> kept = doubts;
   for (std::size_t n = 0; n < doubts.size(); ++n) {
@@ -213,7 +213,7 @@ std::vector<char> add_parts(const ScanValues& scan, const DistanceField& structu
   }
   for (std::size_t n = 0; n < parts.size(); ++n) {
     if (is_small[n] == 0 || !(small[n].area_mm2 > 0)) continue;
-    // Beyond the scan's ends a structure goes on as it ends there, in parts that nobody outlined.
+    // Beyond the scan's ends a structure is continued with the shape of its end; parts there were not outlined.
     if (!scan.source.sample(parts[n].deepest_mm, FieldSet::value).inside) continue;
     const double sign = parts[n].is_hole ? 1 : -1;  // where the edge would go to if it were not there
     small[n].kind = parts[n].is_hole ? DoubtKind::hole : DoubtKind::island;

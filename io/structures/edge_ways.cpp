@@ -68,9 +68,9 @@ EdgeWays::EdgeWays(const DistanceField& before, const ScanEdgeEdit& edit, const 
   grade();
 }
 
-/// A way that is unlike those around it becomes what most of them say; where they say nothing together, it stays. So
-/// does a place without an edge, unless most around it have one and agree: noise has hidden its own. A way that is not
-/// longer than the edges around are known to is none.
+/// A way that differs from its neighbors' is replaced by what most of them agree on; without agreement the place stays.
+/// So does a place without an edge, unless most neighbors have an edge and agree: noise has hidden its own. A way that
+/// is shorter than the uncertainty of the neighboring edges becomes zero.
 void EdgeWays::take_consent() {
   std::vector<double> way(places_.size(), 0.0), around, known_to;
   std::vector<char> stays(places_.size(), 0);

@@ -24,7 +24,7 @@ struct TracePoint {
   double known_to_mm = 0;
 };
 
-/// In their order; a point within a quarter of the reach from one that is kept is left out.
+/// In order; a point within a quarter of the reach of a kept one is left out.
 std::vector<TracePoint> thinned(const TraceEdit& edit) {
   std::vector<TracePoint> kept;
   const double apart = edit.reach_mm / 4;
@@ -78,7 +78,7 @@ FieldChange change_by(const std::shared_ptr<const RadialBumps>& bumps) {
   return change;
 }
 
-/// Refuses a point that the edge would come to as an island: between it and the edge lies what is on the other side.
+/// Refuses a point that the edge would reach only as an island, because the other side is between it and the edge.
 void refuse_islands(const DistanceField& field, const std::vector<TracePoint>& points, const FieldChange& change,
                     double reach_mm) {
   std::vector<std::uint32_t> all(points.size());
@@ -99,7 +99,7 @@ void refuse_islands(const DistanceField& field, const std::vector<TracePoint>& p
   }
 }
 
-/// The points' numbers by `mm_at`, less those that are wanted.
+/// The values of `mm_at` at the points, minus the wanted values.
 template <typename MmAt>
 Eigen::VectorXd missed(const std::vector<TracePoint>& points, const Eigen::VectorXd& wanted, const MmAt& mm_at) {
   Eigen::VectorXd mm(wanted.size());
@@ -123,8 +123,8 @@ Field piece_traced(const Field& before, const std::vector<TracePoint>& points, d
     const auto at = static_cast<Eigen::Index>(n);
     wanted[at] = change.after(points[n].place, mm[at], all);
   }
-  // The field between its nodes is interpolated, and measured anew. Where that missed the points by little, it is
-  // moved by what is missed, and stays a distance but for that; else it is changed once more.
+  // The field is interpolated between its nodes, and measured again. If the result misses the points by little, it is
+  // shifted by the difference, and stays nearly a distance; otherwise it is changed once more.
   const Fit exactly(points, reach_mm, true);
   const Settle settle = [&](Patch& patch) {
     const Eigen::VectorXd left = missed(points, wanted, [&](const Vec3& at) { return measured_at(patch, at); });

@@ -69,8 +69,7 @@ struct PointsBefore {
   std::vector<Vec3f> closest;
 };
 
-/// What the measure misses of the old surface at a node of the patch, where the surface hardly moves there; none if
-/// it is not known.
+/// The error of measuring the old surface at a node of the patch, where the surface hardly moves; none if unknown.
 std::optional<float> missed_at(const Patch& patch, const PointsBefore& before, const glm::ivec3& node) {
   const glm::ivec3 place(node.x >> 3, node.y >> 3, node.z >> 3), in = node - place * brick_edge;
   const std::int32_t beside = before.bricks.slot_at(place.x, place.y, place.z);
@@ -103,8 +102,9 @@ void measure_brick(Patch& patch, const PointsBefore& points_before, std::size_t 
       const glm::ivec3 node = patch.bricks.place[slot] * brick_edge + in;
       const float now = std::copysign(glm::distance(Vec3f(node) * spacing, point), f);
       patch.mm[at] = now;
-      // A rough surface is measured a little wrong. Where it hardly moves, what the same measure misses of the old one
-      // is put right in the new one: at the node itself, or far from the surface at the one beside its nearest point.
+      // A rough surface is measured with a small error. Where the surface hardly moves, the error of the same
+      // measurement of the old surface is subtracted: at the node itself, or far from the surface at the node beside
+      // its nearest point.
       std::optional<float> missed = missed_at(patch, points_before, node);
       if (!missed) missed = missed_at(patch, points_before, glm::ivec3(glm::round(point / spacing)));
       const float right = now + missed.value_or(0);
@@ -113,8 +113,8 @@ void measure_brick(Patch& patch, const PointsBefore& points_before, std::size_t 
   }
 }
 
-/// The points of a surface f = 0 that are nearest to each node beside it; those that are known stay where no new one
-/// is nearer. `unsettled`: the bricks in which a node got a point or has none yet.
+/// The points of a surface f = 0 nearest to each node beside it; known points stay if no new one is nearer.
+/// `unsettled`: the bricks in which a node got a point or has none yet.
 std::vector<Vec3f> nearest_on(const Patch& patch, const std::vector<float>& f, const std::vector<char>& passed,
                               int threads, std::vector<char>& unsettled) {
   std::vector<Vec3f> closest = patch.kept;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t stored_nodes = DistanceParts::nodes_of_a_brick;
 
-/// What is stored in a brick of the box for a node of it or around it.
+/// The number stored in a brick of the box for a node of it or around it.
 float number_of(const Patch& patch, const glm::ivec3& place, const float* stored, int i, int j, int k) {
   const NodeBricks& bricks = patch.bricks;
   const glm::ivec3 node = place * brick_edge + glm::ivec3(i, j, k);
@@ -28,7 +28,7 @@ float number_of(const Patch& patch, const glm::ivec3& place, const float* stored
   if (stored != nullptr && !is_new) return stored[stored_at(i, j, k)];
   if (slot >= 0) return patch.mm[measured];
   if (const float* beside = patch.stored(of); beside != nullptr) return beside[stored_at(in.x, in.y, in.z)];
-  // A new brick, at the end of those measured: what its nearest node has.
+  // For a new brick at the border of the measured ones: the number of its nearest node.
   const glm::ivec3 own = glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), glm::ivec3(brick_edge - 1));
   const std::size_t nearest = static_cast<std::size_t>(bricks.slot_at(place.x, place.y, place.z)) * brick_nodes +
                               NodeBricks::at(own.x, own.y, own.z);
@@ -37,7 +37,7 @@ float number_of(const Patch& patch, const glm::ivec3& place, const float* stored
   return std::copysign(glm::distance(Vec3f(node) * Vec3f(bricks.lattice.spacing), point), patch.f[nearest]);
 }
 
-/// A brick's nodes and those around it, as they are stored. False if they are those of before.
+/// A brick's nodes and those around it, in storage order. False if they are unchanged.
 bool fill(const Patch& patch, const glm::ivec3& place, float* into) {
   const float* stored = patch.stored(place);
   for (int k = -1; k < brick_edge + 2; ++k) {
@@ -48,7 +48,7 @@ bool fill(const Patch& patch, const glm::ivec3& place, float* into) {
   return stored == nullptr || std::memcmp(stored, into, stored_nodes * sizeof(float)) != 0;
 }
 
-/// Which bricks are stored anew: those measured and those beside them that there were.
+/// The bricks to be stored again: those measured, and existing ones beside them.
 std::vector<glm::ivec3> bricks_to_store(const Patch& patch, double kept_within_mm, std::vector<glm::ivec3>& dropped) {
   std::vector<glm::ivec3> stored;
   std::vector<char> seen(patch.bricks.slot.size(), 0);

@@ -76,7 +76,7 @@ double plane_distance(const Vec3& size, const Vec3& normal, double share) {
   m = glm::max(m, Vec3(1e-3 * whole));  // along an axis: as good as
   const double sum = m.x + m.y + m.z;
   const auto cube = [](double x) { return x > 0 ? x * x * x : 0.0; };
-  // How much lies below the plane where it has come so far from the first corner to the last.
+  // The fraction below the plane when it has moved this far from the first corner to the last.
   const auto below = [&](double far) {
     return (cube(far) - cube(far - m.x) - cube(far - m.y) - cube(far - m.z) + cube(far - m.x - m.y) +
             cube(far - m.x - m.z) + cube(far - m.y - m.z)) /

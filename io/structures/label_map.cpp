@@ -78,7 +78,7 @@ class LabelMapSource final : public MaskSource {
   std::map<int, Box> boxes_;
 };
 
-/// Where each label lies, by its number; nothing if the values are those of an image and no labels.
+/// The box of each label, by its number; nothing if the values are those of an image and not labels.
 std::optional<std::map<int, Box>> boxes_in(const VoxelFile& image) {
   constexpr std::size_t most_labels = 4096;
   std::map<int, Box> boxes;
@@ -126,7 +126,7 @@ std::optional<std::map<int, Box>> boxes_in(const VoxelFile& image) {
   return is_map ? std::optional(boxes) : std::nullopt;
 }
 
-/// "liver" for "liver.nii.gz": what a folder of one mask a file calls its organs.
+/// "liver" for "liver.nii.gz": the organ's name in a folder with one mask a file.
 std::string organ_of(std::filesystem::path file) {
   file = file.filename();
   std::vector<std::string> endings = label_format_endings();
@@ -164,7 +164,7 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
   const auto source = std::make_shared<const LabelMapSource>(std::move(*image), boxes);
   std::set<int> numbers;
   for (const auto& [number, box] : boxes) numbers.insert(number);
-  // Those that the file names and nobody outlined are listed, too, and cannot be felt; so is a mask of nothing.
+  // Labels that the file names without any voxel are listed, too, but cannot be felt; so is an empty mask.
   for (const auto& [number, name] : names) numbers.insert(number);
   if (numbers.empty()) numbers.insert(1);
   const bool is_one_mask = names.empty() && numbers.size() == 1;

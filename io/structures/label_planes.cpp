@@ -33,7 +33,7 @@ double least_step(const std::vector<double>& heights, double otherwise) {
   return std::isfinite(least) && least > 1e-6 ? least : otherwise;
 }
 
-/// Squared distances along a row of nodes to the nearest seed; `far` where there is none.
+/// Squared distances along a row of nodes to the nearest seed; `far` if there is none.
 void along_row(std::span<const std::uint8_t> seeds, std::uint8_t wanted, float step, std::span<float> squared) {
   constexpr float none = 1e6F;
   float from_last = none;
@@ -49,7 +49,7 @@ void along_row(std::span<const std::uint8_t> seeds, std::uint8_t wanted, float s
   }
 }
 
-/// The least over the rows within `reach` of what lies along the rows, plus the step across them, squared.
+/// The minimum, over the rows within `reach`, of the distance along a row plus the squared step across rows.
 void across_rows(const std::vector<float>& along, int columns, int rows, float step, int reach,
                  std::vector<float>& nearest) {
   nearest = along;
@@ -79,7 +79,7 @@ struct Slices {
   double step = 1;              // mm: the least between two heights
 
   Vec3 slide_of(const Vec3& position) const { return position - geometry.slice_positions.front(); }
-  /// Beyond the lattice nobody has seen anything: there it goes on as it is at its edge.
+  /// Beyond the lattice nothing is known: it is continued with the shape of its edge.
   Vec3 position_of(int k) const {
     const int held = std::clamp(k, 0, geometry.dimensions.z - 1);
     return geometry.slice_positions[static_cast<std::size_t>(held)] + static_cast<double>(k - held) * geometry.step;
@@ -120,7 +120,7 @@ glm::ivec3 nodes_per_voxel(const Slices& slices) {
     if ((tilted && a < 2) || (uneven && a == 2)) {
       parts = std::min(2 * parts, finest);
     }
-    // A power of two: so a lattice of every second node, and of every second of those, still has all voxels.
+    // A power of two, so that the lattices of every second and every fourth node also contain all voxels.
     per_voxel[a] = static_cast<int>(std::bit_floor(static_cast<unsigned>(parts)));
   }
   return per_voxel;
@@ -130,7 +130,7 @@ int most_of(const glm::ivec3& parts) {
   return std::max({parts.x, parts.y, parts.z});
 }
 
-/// Lays the box and what is known around it on the lattice, whose size and origin follow.
+/// Places the box and its known surroundings on the lattice, and determines the lattice's size and origin.
 Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_voxel, double band_mm,
                NodeLattice& lattice) {
   const Geometry& geometry = slices.geometry;
@@ -155,7 +155,7 @@ Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_vox
     layout.slice.push_back(std::clamp(k, 0, geometry.dimensions.z - 1));
     layout.slice_node.push_back(static_cast<int>(std::lround((slices.height_of(k) - base) / lattice.spacing.z)));
   }
-  // What is known reaches as far as the band does; some room keeps its nodes those of the coarser lattices.
+  // The known region reaches as far as the band; some more room keeps its nodes on the coarser lattices.
   const int room = most_of(per_voxel);
   const glm::ivec2 first_node = glm::ivec2(glm::floor(least_slide)) + layout.low * glm::ivec2(per_voxel) - room;
   const glm::ivec2 last_node = glm::ivec2(glm::ceil(most_slide)) + layout.high * glm::ivec2(per_voxel) + room;

@@ -33,8 +33,8 @@ void for_items(DcmItem& item, const DcmTagKey& sequence, const Work& work) {
   }
 }
 
-/// Sixteen numbers, row by row, of which the last four are 0, 0, 0, 1 (PS3.3 C.20.2.1.1). Nothing if what they say
-/// scales, shears or mirrors: whatever the file calls it. Matrices are written with some six digits.
+/// Sixteen numbers, row by row, the last four of which are 0, 0, 0, 1 (PS3.3 C.20.2.1.1). Nothing if the matrix scales,
+/// shears or mirrors, whatever the file calls it. Matrices are written with about six digits.
 std::optional<RigidMotion> rigid(const std::vector<double>& rows) {
   constexpr double tolerance = 1e-4;
   glm::dmat3 turn;
@@ -51,7 +51,7 @@ std::optional<RigidMotion> rigid(const std::vector<double>& rows) {
   for (std::size_t n = 12; n < 16; ++n) {
     if (!(std::abs(rows[n] - (n == 15 ? 1 : 0)) < tolerance)) return std::nullopt;
   }
-  // What the digits left over is taken out.
+  // Removes the error of the rounded digits.
   turn[0] = glm::normalize(turn[0]);
   turn[1] = glm::normalize(turn[1] - glm::dot(turn[0], turn[1]) * turn[0]);
   turn[2] = glm::cross(turn[0], turn[1]);
@@ -83,7 +83,7 @@ Registration::Part part_in(DcmItem& item, const std::string& file) {
   return part;
 }
 
-/// How a frame lies in the one that a registration registers to; that one lies in itself as it is.
+/// The motion from a frame to a registration's target frame; for the target itself the identity.
 std::optional<Registration::Part> part_of(const Registration& registration, const std::string& frame) {
   const auto found = std::ranges::find(registration.parts, frame, &Registration::Part::frame_of_reference_uid);
   if (found != registration.parts.end()) return *found;

@@ -62,8 +62,8 @@ Line line_through(const ScanValues& scan, const Vec3& place, const Vec3& way, do
   return line;
 }
 
-/// Where the edge around its steepest place ends on the way to the line's first or last place: where it is flat, or in
-/// the valley before another edge, which may be `taken` already.
+/// The end of the edge around its steepest place, towards the line's first or last place: where it is flat, or in the
+/// valley before another edge, which may already be `taken`.
 std::size_t end_of(const Line& line, const std::vector<bool>& taken, std::size_t steepest, std::size_t outermost) {
   const double sign = line.slope[steepest] > 0 ? 1 : -1;
   const double most = sign * line.slope[steepest];
@@ -108,7 +108,7 @@ Edge edge_between(const Line& line, std::size_t begin, std::size_t steepest, std
   while (static_cast<double>(n + 1) < to && (line.value[n + 1] - middle) * sign < 0) ++n;
   const double part = (middle - line.value[n]) / (line.value[n + 1] - line.value[n]);
   edge.mm = line.at(static_cast<double>(n) + part);
-  // What a Gaussian step has between two places of this slope, and how wide it is.
+  // The part of a Gaussian step between two places with this slope, and its width.
   const double reach = std::sqrt(-2 * std::log(std::min(level / most, 0.9)));
   edge.rise = (high - low) / std::erf(reach / std::numbers::sqrt2);
   edge.sigma_mm = std::abs(edge.rise) / (most * std::sqrt(2 * std::numbers::pi));

@@ -31,13 +31,13 @@ using internal::numbers_of;
 using internal::Placement;
 using internal::text_of;
 
-/// One frame: of which segment (0: of all, in a label map), and on which slice of the lattice.
+/// One frame: its segment (0: all, in a label map), and its slice of the lattice.
 struct SegmentFrame {
   int segment = 0;
   int slice = 0;
 };
 
-/// A frame's groups, or the shared ones where it has none of its own.
+/// A frame's group, or the shared one if it has none of its own.
 DcmItem* group_of(DcmItem& own, DcmItem* shared, const DcmTagKey& sequence) {
   DcmItem* found = first_item(own, sequence);
   return found != nullptr || shared == nullptr ? found : first_item(*shared, sequence);
@@ -47,7 +47,7 @@ std::vector<double> numbers_in(DcmItem* item, const DcmTagKey& tag) {
   return item != nullptr ? numbers_of(*item, tag) : std::vector<double>();
 }
 
-/// A distance that is said; 0 where it is not, or is none of a patient's.
+/// A distance in the file; 0 if it is missing, or impossible for a patient.
 double distance_in(DcmItem* measures, const DcmTagKey& tag) {
   const std::vector<double> numbers = numbers_in(measures, tag);
   const double distance = numbers.empty() ? 0 : std::abs(numbers.front());
@@ -217,7 +217,7 @@ class SegmentationSource final : public MaskSource {
     return static_cast<std::uint8_t>(std::lround(share * Mask::full));
   }
 
-  /// The part of a frame that holds some of the segment; of no size where there is none.
+  /// The part of a frame that contains some of the segment; of size zero if there is none.
   Cut cut_frame(std::size_t n, int number, std::vector<std::uint16_t>& values) const {
     read_frame(pixels_, static_cast<std::uint32_t>(n), values);
     Cut cut{.slice = frames_[n].slice};
@@ -335,7 +335,7 @@ std::vector<Structure> segments_in(DcmItem& dataset) {
   return structures;
 }
 
-/// A label map may describe its background, too: nobody outlined that.
+/// A label map may also describe its background, which is not a structure.
 void take_background_away(DcmItem& dataset, std::vector<Structure>& structures) {
   const auto padding =
       static_cast<int>(std::clamp(number_of(dataset, DCM_PixelPaddingValue).value_or(0), -1.0, 65535.0));

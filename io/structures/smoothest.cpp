@@ -114,8 +114,8 @@ class Smoothing {
         far_(f_),
         kinks_(f_.size()) {}
 
-  /// Nodes farther than this from the surface hold its distance, and so do those where it has a kink, half-way between
-  /// two sides: there it is not to be smoothed, which would move the sides. The others are free within their bounds.
+  /// Nodes farther than this from the surface keep its distance. So do nodes at a kink of the distance, half-way
+  /// between two sides: smoothing there would move the sides. The others are free within their bounds.
   void hold_beyond(float free_mm) {
     std::vector<char> any(bricks_.count(), 0);
     rows_.resize(bricks_.count());
@@ -213,7 +213,7 @@ class Smoothing {
     return rows;
   }
 
-  /// Which of a brick's nodes are free; whether any is. `kinks`: the Laplacian of what is bent at kinks alone.
+  /// Marks a brick's free nodes; returns whether there are any. `kinks`: the Laplacian of the parts bent only at kinks.
   bool find_free(std::size_t slot, float free_mm, std::array<bool, brick_nodes>& free, float* kinks) const {
     constexpr float steep_enough = 0.5F;  // squared slope of a distance: 1 but for its kinks
     constexpr std::ptrdiff_t plane = bent_width * bent_width;
@@ -269,7 +269,7 @@ class Smoothing {
   std::vector<Rows> rows_;  ///< of each brick
 };
 
-/// Half-way between what is inside and what is outside.
+/// Half-way between inside and outside.
 std::vector<float> first_guess(const DistanceBounds& bounds) {
   std::vector<float> f(bounds.lower.size());
   for (std::size_t n = 0; n < f.size(); ++n) f[n] = 0.5F * (bounds.lower[n] + bounds.upper[n]);

@@ -32,7 +32,7 @@ constexpr const char* label_map_segmentation_storage = "1.2.840.10008.5.1.4.1.1.
 constexpr const char* surface_segmentation_storage = "1.2.840.10008.5.1.4.1.1.66.5";
 constexpr const char* structure_set_storage = "1.2.840.10008.5.1.4.1.1.481.3";
 
-/// What a file holds; nothing where it is of another kind.
+/// The contents of a file; nothing if it is of another type.
 StructureCatalogue structures_in(const fs::path& path) {
   if (std::vector<Structure> labels = structures_of_label_map(path); !labels.empty())
     return {std::move(labels), {}, {}};

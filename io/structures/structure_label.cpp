@@ -30,7 +30,7 @@ struct Texts {
   }
 };
 
-/// The item of a sequence that has this number; null if there is none.
+/// The item of a sequence with this number; null if there is none.
 DcmItem* item_of_number(DcmItem& dataset, const DcmTagKey& sequence, const DcmTagKey& key, int number) {
   DcmSequenceOfItems* items = nullptr;
   if (dataset.findAndGetSequence(sequence, items).bad()) return nullptr;

@@ -46,8 +46,8 @@ struct Lattice {
   }
 };
 
-/// Pieces of line through a cell: from a side to a side, with what is above 0 on the left. By the bits of the corners
-/// that are above 0: lower left, lower right, upper right, upper left.
+/// Pieces of line through a cell: from side to side, with values above 0 on the left. Indexed by the bits of the
+/// corners above 0: lower left, lower right, upper right, upper left.
 struct LinePieces {
   int count = 0;
   std::array<std::array<int, 2>, 2> sides{};

@@ -6,7 +6,7 @@
 namespace palpate::io::testing {
 namespace {
 
-/// What begins as an archive and is none.
+/// A file that begins like an archive but is not one.
 std::string of_damaged_archive() {
   return said_of([](const TestFolder& folder) {
     write_bytes(folder / "study.zip", std::string("PK\3\4", 4) + std::string(600, '\x55'));

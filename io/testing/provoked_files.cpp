@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace internal;
 
-/// A stack of which something becomes of a file between its header and its pixels.
+/// A stack in which a file changes between the reading of its header and its pixels.
 std::string of_stack_that_changes(const std::function<void(const fs::path& slice)>& change) {
   const TestFolder folder;
   write_stack(folder.path(), 5);
@@ -43,7 +43,7 @@ std::string of_a_shrinking_file() {
   });
 }
 
-/// A folder that only another user may list: root may list all, so that it has to be nobody for a moment.
+/// A folder that only another user may list. Root may list all folders, so root becomes `nobody` for a moment.
 std::string of_a_locked_folder() {
   const TestFolder folder;
   constexpr uid_t nobody = 65534;
@@ -83,7 +83,7 @@ std::string of_too_large_a_scan() {
   return said;
 }
 
-/// Velocities along three directions, of which one loses a slice between its header and its pixels.
+/// Velocities along three directions, one of which loses a slice between the reading of header and pixels.
 std::string of_velocities_that_differ() {
   const TestFolder folder;
   for (const char* const name : {"*fl3d1_v80rl", "*fl3d1_v80ap", "*fl3d1_v80hf"}) {

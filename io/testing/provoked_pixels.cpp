@@ -68,7 +68,7 @@ std::string of_jpeg(const std::function<void(std::string&)>& damage) {
   });
 }
 
-/// RLE of two segments, which begin where they are said to.
+/// RLE with two segments at the given offsets.
 Bytes rle(std::array<Uint8, 2> starts, const Bytes& behind) {
   Bytes bytes(64 + behind.size());
   bytes[0] = 2;
@@ -87,7 +87,7 @@ Bytes first_half(Bytes bytes) {
   return bytes;
 }
 
-/// What is said of an image of JPEG 2000 with one byte broken: of each byte in its turn.
+/// The messages about a JPEG 2000 image with one damaged byte, for each byte in turn.
 std::string of_a_broken_byte() {
   const Bytes whole = coded_2000(edge, 12);
   std::string said;
@@ -106,7 +106,7 @@ std::string of_a_broken_byte() {
   return said;
 }
 
-/// Two frames in three fragments of which none begins an image.
+/// Two frames in three fragments, none of which begins an image.
 void three_fragments_of_two_frames(DcmDataset& dataset) {
   const Bytes piece(20, 7);
   encapsulate(dataset, EXS_RLELossless, {piece, piece, piece}, 1U << 20);

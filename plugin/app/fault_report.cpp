@@ -50,7 +50,7 @@ FaultReport report_of(std::span<const device::SafetyTick> ticks, const std::stri
   return report;
 }
 
-/// What stands after "# key: "; empty if the line is another.
+/// The text after "# key: "; empty if it is another line.
 std::string_view value_of(std::string_view line, std::string_view key) {
   if (!line.starts_with("# ") || !line.substr(2).starts_with(key)) return {};
   line.remove_prefix(2 + key.size());

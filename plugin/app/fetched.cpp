@@ -28,7 +28,7 @@ bool starts(const fs::path& path, const char* prefix) {
   return path.filename().string().starts_with(prefix);
 }
 
-/// A lock on a folder, of which nothing has to be deleted and which ends with its holder. -1: another has it.
+/// A lock on a folder that leaves no file behind and ends with its holder. -1: another program holds it.
 int lock_folder(const fs::path& folder, bool wait) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor >= 0 && flock(descriptor, wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0) return descriptor;

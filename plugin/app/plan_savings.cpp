@@ -118,7 +118,7 @@ int floats_a_voxel(FieldSet fields) {
   return gradient + (io::contains(fields, FieldSet::tube) ? 6 : 0);
 }
 
-/// What the plan's fields would cost in those slices, were they computed: from a brick of the middle.
+/// The time that the plan's fields would take in the slices left out, measured on a brick in the middle.
 void measure_slices(const io::SliceRange& left_out, const modes::Scene& scene, const modes::Plan& plan,
                     const std::shared_ptr<const io::Volume>& volume, Saving& saving) {
   const int floats = floats_a_voxel(plan.fields);

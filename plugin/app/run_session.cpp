@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto between_looks = std::chrono::milliseconds(100);
 constexpr int ticks_between_looks = 256;
 
-/// What a person sees while it runs.
+/// The display for a person during the session.
 class Watch {
  public:
   Watch(const SessionRun& run, const TickRing& ring, const Recorder& recorder) : recorder_(recorder) {

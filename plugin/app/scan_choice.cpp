@@ -22,7 +22,7 @@ bool has_file(const io::Series& series, const std::filesystem::path& path) {
   });
 }
 
-/// A DICOM file means the series that it is of.
+/// A DICOM file stands for its series.
 bool is_part_of_a_series(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored) && !io::holds_whole_scans(path);

@@ -76,7 +76,7 @@ std::shared_ptr<const io::Volume> large_volume(bool quick) {
   return std::make_shared<const io::Volume>(std::move(volume));
 }
 
-/// Best of three, each into fresh memory, as the kernel hands it out unless somebody asks for large pages.
+/// Best of three, each into fresh memory, as the kernel gives it unless large pages are requested.
 double best_seconds(std::size_t count, const std::function<void(std::span<glm::vec3>)>& write) {
   struct Free {
     void operator()(void* memory) const { std::free(memory); }  // NOLINT: of aligned_alloc

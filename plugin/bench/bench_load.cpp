@@ -44,8 +44,8 @@ struct LoadOptions {
   bool first_force = false;
 };
 
-/// What a program's time is compared with: the reader alone with its peers, which are as small; and what a person waits
-/// for, the whole program, with the same up to a force.
+/// The roles in the comparison: the reader alone and its peers, which do equally little; and the whole program, which a
+/// person waits for, also up to a force.
 enum class Role { reader, program, force, peer };
 
 struct Loader {
@@ -195,7 +195,7 @@ void load_once(const std::string& folder, bool first_force) {
   const auto shared = std::make_shared<const io::Volume>(io::load(choose_series(option)));
   const io::Volume& volume = *shared;
   if (first_force) {
-    // What stands between a loaded volume and a force: the fields, and a sample of them where the proxy is.
+    // The steps from a loaded volume to a force: the fields, and a sample of them at the proxy.
     const PreparedScene felt = prepare(scene_for("", volume), shared, glm::dvec3(0.1));
     const glm::dvec3 middle = volume.geometry.to_patient(0.5 * glm::dvec3(volume.geometry.dimensions - 1));
     const io::Sample sample = felt.source->sample(middle, felt.plan->fields);

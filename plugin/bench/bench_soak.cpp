@@ -38,8 +38,8 @@ void print(const SoakResult& result) {
   }
 }
 
-/// What a thread of the C library keeps for itself after a free counts as allocated, and differs from time to time. It
-/// can be told to keep nothing only before the program starts: so it starts once more.
+/// Freed memory in the thread caches of the C library counts as allocated, and varies. The caches can only be disabled
+/// before the program starts: so it restarts itself.
 void start_again_without_thread_caches() {
   constexpr const char* name = "GLIBC_TUNABLES";
   if (std::getenv(name) != nullptr) return;

@@ -36,7 +36,7 @@ struct SolversArguments {
   std::string output;
 };
 
-/// What one solver did with one balance.
+/// The result of one solver for one balance.
 struct Result {
   Outcome outcome = Outcome::unsuitable;
   Vec3 proxy{0};
@@ -109,7 +109,7 @@ std::vector<FamilySummary> run_family(Family family, const std::vector<Entrant>&
     const solver::Reference reference = solve_reference(balance);
     for (std::size_t e = 0; e < entrants.size(); ++e) {
       Result result = run_once(entrants[e], problem);
-      // A reference that is less certain than what the exact solver promises says nothing of it.
+      // A reference with a larger error than the exact solver promises cannot judge it.
       const double promise = promised_accuracy(balance, result.proxy, {});
       if (reference.radius < 0.1 * promise) result.error = distance_to(reference, balance, result.proxy);
       results[e].push_back(result);
@@ -162,7 +162,7 @@ void draw(const std::vector<FamilySummary>& summaries, const std::vector<Entrant
     Curve curve{
         .label = entrants[e].name, .color = palette[e % std::size(palette)], .style = Curve::Style::points, .width = 4};
     for (const FamilySummary& s : summaries) {
-      // The errors of stiff and far are those of their data: an ulp of 1e6 m, and of 1e12 N at 1e-3 N/m.
+      // The errors of stiff and far come from their data: an ulp of 1e6 m, and of 1e12 N at 1e-3 N/m.
       if (s.solver != entrants[e].name || s.known == 0 || s.family == Family::stiff || s.family == Family::far_away) {
         continue;
       }

@@ -49,7 +49,7 @@ double seconds_of(const auto& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
 }
 
-/// A ball around a place that is no voxel's, on voxels of 1 x 1 x `step` mm.
+/// A ball around a place that is not a voxel's center, on voxels of 1 x 1 x `step` mm.
 io::Mask ball(double radius, double step, const glm::dvec3& center) {
   io::Mask mask;
   io::Geometry& geometry = mask.geometry;
@@ -183,7 +183,7 @@ struct TickStudy {
   std::vector<io::Structure> felt;
 };
 
-/// The scene without structures, told of them, and kept out of them.
+/// The scene without structures, with their distances, and kept out of them.
 std::string tabulate_ticks_at(const TickStudy& study, const std::shared_ptr<const io::Volume>& volume,
                               std::size_t ticks) {
   std::vector<glm::dvec3> poses;
@@ -220,7 +220,7 @@ std::string tabulate_ticks_at(const TickStudy& study, const std::shared_ptr<cons
 
 using DistanceFields = std::vector<std::shared_ptr<const io::DistanceField>>;
 
-/// Of every eighth voxel of the middle slice: the one that is farthest from all structures, in the body.
+/// Of every eighth voxel of the middle slice: the one in the body farthest from all structures.
 glm::dvec3 place_far_from(const DistanceFields& fields, const io::Volume& volume) {
   constexpr double air = -300;
   glm::dvec3 best(0);

@@ -194,7 +194,7 @@ void tabulate_primitives(const std::filesystem::path& folder, Growth& growth) {
   table.save(folder, "primitives.csv");
 }
 
-/// What comes next, where somebody looks on; the row that follows is written over it.
+/// Announces the next step if stderr is a terminal; the following row overwrites it.
 void say_next(const std::string& what) {
   if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s ...\033[K\r", what.c_str());
 }

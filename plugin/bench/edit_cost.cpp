@@ -38,7 +38,7 @@ std::shared_ptr<const io::DistanceField> ball_of_voxels() {
   return io::distance_of(mask);
 }
 
-/// Along a wavy ring that stands 1.5 mm out of the ball.
+/// Along a wavy ring 1.5 mm outside the ball.
 io::TraceEdit wavy_ring(int points) {
   io::TraceEdit trace;
   for (int n = 0; n < points; ++n) {

@@ -33,7 +33,7 @@ using glm::ivec3;
 
 constexpr double air_below_hu = -300;
 
-/// A tissue of the truth: all structures of these names together. Strengths are those that suggestions give.
+/// A tissue of the truth: all structures with these names together. Strengths are those of suggestions.
 struct LabelledTissue {
   const char* name;
   double strength_n;
@@ -71,8 +71,7 @@ bool is_in(const ivec3& at, const ivec3& size) {
   return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size.x && at.y < size.y && at.z < size.z;
 }
 
-/// Writes the number into each voxel without one that is reached from these through voxels that may be passed. Returns
-/// how many there are.
+/// Writes the number into each unnumbered voxel that is reached from these through passable voxels. Returns the count.
 std::size_t flood(const io::Mask& lattice, std::vector<ivec3> from, const std::function<bool(const ivec3&)>& may_pass,
                   int number, std::vector<int>& numbers) {
   std::size_t count = from.size();
