@@ -265,7 +265,7 @@ io::Mask body_in(const io::Volume& volume) {
   const auto is_air = [&](const ivec3& at) {
     return volume.is_padding(at.x, at.y, at.z) || volume.value_at(at.x, at.y, at.z) < air_below_hu;
   };
-  // The largest piece that is no air: neither the table nor what lies on it.
+  // The largest piece that is not air: without the table and objects on it.
   std::vector<int> pieces(body.occupancy.size());
   int number = 0, largest = 0;
   std::size_t most = 0;
@@ -279,7 +279,7 @@ io::Mask body_in(const io::Volume& volume) {
     }
   });
   if (most == 0) return body;
-  // What the room reaches around it, from the sides of the slices: the air within stays inside.
+  // Floods the room's air from the sides of the slices; enclosed air belongs to the body.
   const auto is_body = [&](const ivec3& at) { return pieces[body.offset(at.x, at.y, at.z)] == largest; };
   std::vector<ivec3> room;
   for_voxels(size, [&](const ivec3& at) {

@@ -68,7 +68,7 @@ class ExactFields final : public io::FieldSource {
   }
 
  private:
-  // Of the value's edges: near that of voxels of 1 mm, so that strengths rise over as much of the way.
+  // Width of the value's edges: near that of voxels of 1 mm, so that strengths rise over the same distance.
   static constexpr double edge_mm = 0.6, gradient_mm = 2.0;
   testdata::AnalyticSource values_, gradients_;
 };
@@ -201,7 +201,7 @@ ForceGroup filters(std::uint64_t seed) {
   return group;
 }
 
-/// What the solver and the sub-steps alone change, on one scan.
+/// The effect of solver and sub-steps alone, on one scan.
 ForceGroup solvers(std::uint64_t seed) {
   constexpr double fast_mm_per_s = 400;  // 0.4 mm a tick: four sub-steps
   const Scanned how{"", noise_of_solvers_hu};

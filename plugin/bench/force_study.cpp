@@ -40,7 +40,7 @@ struct Runner {
     done += per_run;
   }
 
-  /// Cancels what is prepared; how far that is counts for nothing.
+  /// Allows cancelling the preparation; its progress is not reported.
   FeltScene prepared(const MakeFelt& make) const {
     return make([this](double) { return !progress || progress(std::min(1.0, done)); });
   }

@@ -15,7 +15,8 @@ std::string in_quotes(const std::string& text) {
   return "\"" + text + "\"";
 }
 
-/// The part of what is stated that would hold 95 % of the errors: 1 is as it should be, less is stated too wide.
+/// The factor on the stated uncertainty that would cover 95 % of the errors: 1 is right, less means it is stated too
+/// wide.
 double needed(const KnownPlaces& known) {
   return known.ratios.empty() ? 0 : io::quantile(std::vector<double>(known.ratios.begin(), known.ratios.end()), 0.95);
 }

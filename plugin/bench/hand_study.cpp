@@ -40,7 +40,7 @@ struct Spot {
   glm::dvec3 into;
 };
 
-/// What is pressed on, and the line along which it is the same everywhere.
+/// The surface that is pressed, and the line along which it is uniform.
 struct Setting {
   const char* scene;
   std::shared_ptr<const io::FieldSource> source;
@@ -75,7 +75,7 @@ struct HandOutcome {
   std::size_t capped = 0;
 };
 
-/// N: half of what the plan's surface takes at the place that is pressed.
+/// N: half of the largest force of the plan's surface at the pressed place.
 double pressing_force_n(const modes::Plan& plan, const Setting& setting) {
   const io::Sample sample = setting.source->sample(setting.spot(0).place_mm, plan.fields);
   double most_n = 0;
@@ -100,8 +100,8 @@ glm::dmat3 axes_at(const Setting& setting, double along_mm) {
   return glm::transpose(glm::dmat3(spot.into, glm::cross(across, spot.into), across));
 }
 
-/// In half a second from 8 mm in front of the wall to what the hand means, `depth_m` into it; then it stays there or
-/// slides 20 mm a second.
+/// In half a second from 8 mm in front of the wall to the target depth `depth_m`; then it stays there or slides at 20
+/// mm/s.
 std::vector<device::Waypoint> path_of(const Setting& setting, const modes::Workspace& workspace, double depth_m,
                                       bool slide, double hold_s) {
   const auto waypoint = [&](double time, double depth) {

@@ -28,7 +28,8 @@ std::uint64_t last_number(std::string_view text, std::string_view element, std::
 }  // namespace
 
 std::uint64_t live_heap_bytes() {
-  // mallinfo2() knows the main arena alone. Into a buffer of our own: the report must not change what it reports.
+  // mallinfo2() covers only the main arena. Into a buffer of our own, so that the report does not change what it
+  // reports.
   static std::array<char, 1U << 18U> buffer;
   FILE* stream = fmemopen(buffer.data(), buffer.size() - 1, "w");
   if (stream == nullptr || malloc_info(0, stream) != 0) {

@@ -56,8 +56,8 @@ double steady_up_to(std::span<const HandStudyRow> rows, const HandStudyRow& of, 
   return largest;
 }
 
-/// Of each solver, on each arm: the stiffness in the usual hand, and how far it reaches in the others. What is steady
-/// at none of the stiffnesses is drawn at `least`.
+/// For each solver on each arm: the stiffness in the usual hand, and its range over the other hands. Solvers that are
+/// never steady are drawn at `least`.
 Chart chart_of(std::span<const HandStudyRow> rows, const HandStudyRow& of, double least, double most) {
   Chart chart{of.scene + ", " + of.motion,
               {"", false, 0.0, static_cast<double>(simulated_arms().size()), false},

@@ -41,7 +41,7 @@ std::vector<SpoiltOrgan> spoilt_organs(const OutlineMm& truth, const EdgePlace& 
       {"a leak of 5 mm", [=](const glm::dvec3& at) { return std::max(truth(at), 6 - from(-1)(at)); }},
       {"a shift of 2.5 mm", [=](const glm::dvec3& at) { return truth(at - 2.5 * glm::normalize(out + 0.3 * aside)); }},
       {"noise of a voxel", [=](const glm::dvec3& at) {
-         // By the place alone, so that it is the same whenever it is asked.
+         // A function of the place alone, so that every call gives the same value.
          const double wave = std::sin(91.7 * at.x + 57.3 * at.y + 113.1 * at.z) * 43758.5453;
          return truth(at) + 4.0 * (wave - std::floor(wave) - 0.5);
        }}};

@@ -41,7 +41,7 @@ std::shared_ptr<const io::Volume> make_scan(const std::string& name) {
   return std::make_shared<const io::Volume>(testdata::scan(phantom, testdata::make_geometry(grid)));
 }
 
-/// Scans as they would be loaded: one at a time, made anew whenever it is another.
+/// Scans as if loaded: one at a time, made again at every change.
 class Scans {
  public:
   Snapshot operator()(const SceneRecord& record) {
@@ -78,7 +78,7 @@ std::vector<device::Waypoint> probing(double seconds) {
   return path;
 }
 
-/// What the ticks themselves tell.
+/// Checks the ticks themselves.
 class Judge {
  public:
   Judge(double force_limit_n, double slew_n_per_s, SoakResult& result)
@@ -94,13 +94,13 @@ class Judge {
     const double force = glm::length(sent);
     ++result_.ticks;
     deadlines_ += 1 + tick.missed;
-    // Deadlines are counted by the tick's time; the difference would be ticks that nobody accounts for.
+    // Deadlines are counted by the tick's time; a difference means deadlines that are not accounted for.
     const auto told = static_cast<std::uint64_t>(std::llround(tick.time_s * rate_hz)) + 1;
     result_.unaccounted += told - deadlines_;
     deadlines_ = told;
     result_.missed += tick.missed;
     result_.not_finite += std::isfinite(force) ? 0 : 1;
-    // A fall to zero when the stylus is lost is no step for a hand: the device is gone.
+    // A fall to zero when the stylus is lost does not count as a step: the device is gone.
     const double most_change = slew_n_per_s_ * std::max(tick.dt_s, 1e-3) + force_limit_n_ * fall_share(tick);
     const bool fell = force < 1e-12;
     result_.over_limit += force > force_limit_n_ * (1 + 1e-12) ? 1 : 0;
@@ -124,7 +124,7 @@ class Judge {
   glm::dvec3 last_n_{0};
 };
 
-/// The session, what it is driven by and what it is recorded with.
+/// The session, its input and its recording.
 class Probing {
  public:
   explicit Probing(const SoakOptions& options)
@@ -260,7 +260,7 @@ class Probing {
   std::jthread heart_;  // last: it ends before what it beats for
 };
 
-/// The points once warm: the first third has filled what is filled once.
+/// The points after warming up: in the first third, memory is filled once.
 std::span<const SoakPoint> warm(const std::vector<SoakPoint>& points) {
   return std::span(points).subspan(points.size() / 3);
 }
@@ -288,7 +288,7 @@ double SoakResult::resident_slope() const {
 
 SoakResult soak(const SoakOptions& options) {
   Probing probing(options);
-  // What is kept of each cycle must not count as what grows.
+  // Reserved in advance, so that the results do not count as growth.
   probing.result.points.reserve(static_cast<std::size_t>(60 * options.minutes / options.seconds_of_scan) + 16);
   const modes::Limits limits;
   Judge judge(limits.force_n, limits.slew_n_per_ms * 1e3, probing.result);

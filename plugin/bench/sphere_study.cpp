@@ -97,7 +97,7 @@ class Probe {
   std::vector<double> us_;
 };
 
-/// Jumps of the force in a tick while the probe stays where it is.
+/// Jumps of the force in a tick while the probe is at rest.
 void rest(Probe& probe, const dvec3& at_mm, std::vector<double>& jumps_n) {
   dvec3 force = probe.force_n();
   for (int n = 0; n < 2000; ++n) {

@@ -32,7 +32,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-/// For each column of the file the index of its name; empty where it is left out.
+/// For each column of the file the index of its name; empty if it is ignored.
 std::vector<std::optional<std::size_t>> columns_of(const std::string& text) {
   std::vector<std::optional<std::size_t>> columns;
   std::array<int, column_names.size()> count{};

@@ -26,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using device::Felt;
 
-/// The first letter of the answer, small; nothing if there is no more input.
+/// The first letter of the answer, in lower case; nothing at the end of input.
 std::optional<char> answer_to(const char* question) {
   put("{} ", question);
   std::fflush(stdout);
@@ -81,7 +81,7 @@ Json settings_before(const StylusChoice& choice) {
   return settings;
 }
 
-/// The signs that were there, times those that were found.
+/// The present signs times the ones found.
 Json signs(const Json& settings, const char* key, const device::Vec3& found) {
   Json product = settings.contains(key) ? settings.at(key) : Json{1.0, 1.0, 1.0};
   for (std::size_t axis = 0; axis < 3; ++axis) {

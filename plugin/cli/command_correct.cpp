@@ -34,7 +34,7 @@ struct CorrectOptions {
 
 constexpr const char* drawn_color = "#e69f00";  // of a structure that contours make: orange, seen on gray
 
-/// What is corrected, and its label. A new structure is called as its file, unless it is given a name.
+/// The corrected structure and its label. A new structure is named after its file, unless it is given a name.
 struct Corrected {
   std::shared_ptr<const io::DistanceField> field;  ///< null: it is made of contours
   io::StructureLabel label;

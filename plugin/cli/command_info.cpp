@@ -62,7 +62,7 @@ Examined examine(io::Series series, std::string name) {
       s.warnings.insert(s.warnings.end(), volume.warnings.begin(), volume.warnings.end());
       if (frame == 0) s.geometry = volume.geometry;  // without the slices that turned out to be unreadable
     } catch (const io::DicomError& error) {
-      // Also of what is no volume: why it shows nothing is what is asked.
+      // Also for a series that is not a volume: the user asks why it shows nothing.
       s.warnings.push_back(error.text());
     }
   }
@@ -187,7 +187,7 @@ std::string counted(const std::string& kind, std::size_t count) {
   return fmt::format("{} {}s", count, kind);
 }
 
-// By kind; each file by itself where that is asked for, or where there is nothing else to tell.
+// By kind; each file separately if requested, or if there is nothing else to report.
 void print_skipped(const std::vector<io::SkippedFile>& skipped, bool each) {
   if (skipped.empty()) return;
   std::string kinds;
@@ -222,7 +222,7 @@ Json json_of(const std::vector<Examined>& all, const io::Catalogue& catalogue) {
   return json;
 }
 
-// Of the series as they turned out to be: one whose images cannot be decoded is nobody's first choice.
+// Uses the results of decoding: a series whose images cannot be decoded must not be the first choice.
 std::optional<io::FirstChoice> mark_first_choice(std::vector<Examined>& all, std::size_t count) {
   std::vector<io::Series> series;
   series.reserve(count);

@@ -93,7 +93,7 @@ void print_text(const std::vector<StrokePoint>& stroke, const std::vector<MetBou
   put("{:>9} {:>9} {:>9} {:>9}  {:<11} {}\n", "depth mm", "force N", "proxy mm", "value", "solver", "boundary");
   const glm::dvec3 from = stroke.front().position_mm;
   const glm::dvec3 along = glm::normalize(stroke.back().position_mm - from);
-  // A line every half millimeter is what a person reads; --json has every tick.
+  // A line every half millimeter is enough for a person; --json has every tick.
   double next = 0;
   for (const StrokePoint& point : stroke) {
     const double depth = glm::dot(point.position_mm - from, along);

@@ -38,8 +38,8 @@ struct FeltFrame {
   std::string hash;
 };
 
-/// Scenes of the recording, each on the frame of the series that it was felt on; where the recording does not tell
-/// which, on the one that --frame names.
+/// Each scene of the recording, on the frame of the series where it was felt; if the recording does not contain the
+/// frame, on the one of --frame.
 SnapshotMaker on_series(const io::Series& series, int otherwise, StructureFiles files) {
   return [series, otherwise, files = std::move(files), felt = FeltFrame()](const SceneRecord& record) mutable {
     const int told = record.frame ? record.frame->number : otherwise;
@@ -55,7 +55,7 @@ SnapshotMaker on_series(const io::Series& series, int otherwise, StructureFiles 
   };
 }
 
-/// How well the boundaries that held the proxy were known, over the ticks of which it is known.
+/// The uncertainty of the boundaries that held the proxy, over the ticks for which it is known.
 Percentiles known_to_of(const Recording& recording) {
   std::vector<double> known;
   std::ranges::copy_if(recording.known_to_mm, std::back_inserter(known), [](double mm) { return std::isfinite(mm); });

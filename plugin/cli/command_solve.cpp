@@ -14,7 +14,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// The next line without its end; of one that is too long only as much as shows that it is. False at the end of input.
+/// The next line without its end; of a line that is too long, only enough to detect that. False at the end of input.
 bool read_line(std::FILE* input, std::string& line) {
   line.clear();
   int c = std::getc(input);

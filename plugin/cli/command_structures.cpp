@@ -31,14 +31,14 @@ struct StructuresOptions {
   bool json = false;
 };
 
-/// A structure and what it comes to; nothing, and `refused`, where it cannot be felt.
+/// A structure with its measures; without them, and with `refused`, if it cannot be felt.
 struct MeasuredStructure {
   io::Structure structure;
   std::optional<io::StructureMeasures> measures;
   Text refused;
 };
 
-/// `scan`: the one that it is to be felt on, or null.
+/// `scan`: the scan for feeling it, or null.
 MeasuredStructure measured(io::Structure structure, const io::Volume* scan, StudyRegistrations& study) {
   MeasuredStructure result{.structure = std::move(structure)};
   io::Structure& found = result.structure;
@@ -100,7 +100,7 @@ void print_structure(const MeasuredStructure& found) {
   put("{}", text);
 }
 
-/// A registration's parts: what it moves, from where to where, or why it cannot.
+/// A registration's parts: the frames that it joins, or why it cannot.
 nlohmann::ordered_json registration_json(const io::Registration& registration) {
   nlohmann::ordered_json parts = nlohmann::ordered_json::array();
   for (const io::Registration::Part& part : registration.parts) {

@@ -51,7 +51,7 @@ struct Offer {
   Text off;  ///< that it lies wholly outside the scan
 };
 
-/// Nothing where it cannot be told: then it cannot be felt, which is said when it is.
+/// Empty if unknown: then the structure cannot be felt, and the attempt reports that.
 Text off(const io::Structure& structure, const io::Geometry& scan) {
   try {
     return off_scan(structure, io::box_of(structure), scan);

@@ -8,7 +8,7 @@
 namespace palpate::plugin {
 
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus) {
-  // What a real device can do is known once it is open. It is closed with its last owner.
+  // A real device's abilities are known only once it is open. It is closed with its last owner.
   const bool simulated_only = dynamic_cast<const device::SimulatedStylus*>(stylus.get()) != nullptr;
   if (!simulated_only) stylus->open();
   const io::Series series = choose_series(option.series);

@@ -52,7 +52,7 @@ std::string shortened(const std::string& text) {
   return text.size() <= enough ? text : text.substr(0, enough) + "...";
 }
 
-/// Reads a line; what it finds of the id it keeps even where the rest cannot be read.
+/// Reads a line. Keeps the id even if the rest cannot be read.
 Json parse(std::string_view line, Json& id) {
   constexpr int deepest = 16;
   std::vector<std::set<std::string>> open;
@@ -145,7 +145,7 @@ Problem problem_of(const Json& json) {
   return problem;
 }
 
-/// The fastest of several solves, all of which give the same answer.
+/// The fastest of several solves, which all give the same answer.
 template <typename Solve>
 Timed timed(const SolveOptions& options, std::size_t primitives, const Solve& solve) {
   using Clock = std::chrono::steady_clock;
@@ -189,7 +189,7 @@ double distance(const solver::Primitive& constraint, const Vec3& proxy) {
   return glm::length(away - along * glm::normalize(constraint.direction));
 }
 
-/// Why an answer whose error bound is infinite is none: the hard constraint that it is furthest from.
+/// The reason for refusing an answer with an infinite error bound: the hard constraint farthest from it.
 Text without_bound(const solver::Balance& balance, const Vec3& proxy) {
   double furthest = 0;
   std::size_t index = 0;

@@ -24,7 +24,7 @@ igtl::Bytes labels_with(std::size_t byte, std::uint8_t value) {
   return content;
 }
 
-/// What is said of a stream of bytes.
+/// The message about a stream of bytes.
 std::string said_of(const igtl::Bytes& wire) {
   return said_when([&] {
     igtl::Receiver([](const igtl::Header&) { return std::size_t{100}; }).take(wire, [](const igtl::Message&) {});

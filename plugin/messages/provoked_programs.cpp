@@ -156,7 +156,7 @@ std::vector<Provoked> of_recordings(const std::string& scan, const std::filesyst
   };
 }
 
-/// Of what the programs are given and what they write.
+/// Messages about the programs' input and output.
 std::vector<Provoked> of_others(const std::string& scan) {
   const auto no_file = fresh_path("folder.json");
   std::filesystem::create_directory(no_file);

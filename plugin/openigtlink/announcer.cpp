@@ -62,7 +62,7 @@ void Announcer::offer(const char* type, const std::string& device, Bytes content
   server_.offer(std::string(type) + " " + device, std::move(wire), kept);
 }
 
-/// Every connection of a stylus, and every recording, begins a session anew.
+/// Every connection of a stylus, and every recording, restarts the session.
 void Announcer::follow_session() {
   auto ticks = session_.is_connected() ? session_.shared_ticks() : nullptr;
   if (ticks != ticks_) {
@@ -167,7 +167,7 @@ void Announcer::announce_contact(const TickRecord& tick, const std::vector<Primi
 }
 
 void Announcer::set_marks(const std::vector<Point>& marks) {
-  // As with scenes: what a client only sends back is no change.
+  // As with scenes: data that a client only sends back are no change.
   constexpr double same_mm = 1e-3;
   const auto same = [](const Point& a, const Point& b) {
     return a.name == b.name && glm::distance(a.position, b.position) < same_mm;

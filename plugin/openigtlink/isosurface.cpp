@@ -59,7 +59,7 @@ std::optional<std::vector<glm::ivec3>> cells_of(const Distance& distance, const 
   return cells;
 }
 
-/// What a surface is made in: a right-handed lattice of nodes.
+/// The lattice of a surface: right-handed, with nodes.
 struct Nodes {
   std::function<double(const glm::ivec3&)> height;  ///< positive inside; not a number: no surface is there
   std::function<glm::dvec3(const glm::ivec3&)> place;

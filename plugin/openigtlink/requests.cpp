@@ -34,7 +34,7 @@ modes::Scene with_boundaries(modes::Scene scene, const std::vector<io::Structure
   return scene;
 }
 
-/// The same of a label map: what the scene reads of the one before, it reads of the new one.
+/// The same for a label map: references to the previous map become references to the new one.
 modes::Scene with_map(modes::Scene scene, const std::string& name, const std::filesystem::path& before,
                       const std::filesystem::path& file) {
   std::vector<io::Structure> structures = io::find_structures(std::vector{file}).structures;
@@ -99,7 +99,7 @@ void Requests::look() {
       refuse(asked_->client, error);
     }
   }
-  // What comes meanwhile waits in the server, where the newest takes the place of those before it.
+  // New requests wait in the server, where the newest replaces earlier ones.
   if (waiting_.empty()) {
     for (Server::Request& request : server_.take()) {
       waiting_.push_back(std::make_shared<const Server::Request>(std::move(request)));
@@ -150,7 +150,8 @@ Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request
     const modes::Scene named = received_.with_files(modes::scene_from_json(text, scene_name));
     internal::check_files(request, named, base.scene());
     const modes::Scene scene = drawn_down(named, request.client);
-    // A client whose copy is sent whenever it changes sends back what it got: without an end, if that were a change.
+    // A client that sends its copy whenever it changes also sends back what it received; as a change this would never
+    // end.
     if (modes::to_json(scene) == modes::to_json(base.scene())) return {};
     return [base, scene] { return Change{.scene = scene, .prepared = base.prepared(scene)}; };
   }

@@ -48,7 +48,7 @@ void serve(LiveSession& session, Server& server, const ServeOptions& options) {
       }
       std::this_thread::sleep_for(between_looks);
     }
-    // What is still being prepared is waited for: without a force.
+    // Waits for preparations that are still running: without a force.
     session.release();
   }
   const ServerCounts counts = server.counts();

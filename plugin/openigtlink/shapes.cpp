@@ -18,7 +18,7 @@ namespace {
 
 constexpr double least_part = 0.05;  // of a boundary's strength: less is not sent
 
-/// Cut to what a device's name may have, at the end of a letter, and told apart by a number.
+/// Shortened to the length of a device's name, at the end of a character, and made unique by a number.
 std::string free_name(const std::vector<Shape>& shapes, const char* type, std::string name) {
   const auto cut = [](std::string text, std::size_t room) {
     if (text.size() <= room) return text;
@@ -42,7 +42,7 @@ void add_surface(std::vector<Shape>& shapes, const std::string& name, Surface su
   shapes.push_back({.type = "POLYDATA", .name = free_name(shapes, "POLYDATA", name), .content = content_of(surface)});
 }
 
-/// What a field's lattice reaches: all of the structure, and something around it.
+/// The extent of a field's lattice: the structure and its surroundings.
 io::StructureBox box_of(const io::DistanceField& field) {
   const io::NodeLattice& lattice = field.parts().near.lattice;
   const io::Vec3 last(io::NodeBricks::edge * lattice.bricks);

@@ -30,7 +30,7 @@ void focus_marked_view() {
   if (!marked) return;
   auto* const frame = qobject_cast<pqQVTKWidget*>(marked->widget());
   QWidget* const picture = frame ? frame->renderWidget() : marked->widget();
-  // What is drawn may be a window of its own, in a container that hands the keys on.
+  // The view may be a native window in a container that forwards the keys.
   for (QWidget* const child : picture->findChildren<QWidget*>()) {
     if (!child->inherits("QWindowContainer")) continue;
     child->setFocus();
@@ -84,8 +84,8 @@ void PalpatePanel::mark_by_key(const QKeyEvent& event) {
   }
 }
 
-/// While an outline is corrected, B held in a view shows it as it was before, and F frees the stylus from the slice
-/// that it is held in. Whether the key is used: ParaView would select blocks, or fly somewhere.
+/// While an outline is corrected, holding B in a view shows the earlier outline, and F frees the stylus from its slice.
+/// Returns whether the key is used: ParaView would otherwise select blocks, or move the camera.
 bool PalpatePanel::correct_by_key(const QKeyEvent& event) {
   palpate::plugin::CorrectionModel& correction = parts_->correction;
   const bool before = event.key() == Qt::Key_B, frees = event.key() == Qt::Key_F && correction.held_in();

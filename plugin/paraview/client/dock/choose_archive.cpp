@@ -13,7 +13,7 @@
 
 namespace palpate::plugin {
 
-/// None: there is none yet, and it is told how one is entered; or nothing is to be sent.
+/// None if no archive is configured (the user is told how to add one), or if the user cancels.
 std::optional<io::Archive> PanelParts::choose_archive(const io::Series& of, const SendDialog::Content& content,
                                                       const std::function<void(const QString&)>& tell_problem) {
   std::vector<io::Archive> archives;

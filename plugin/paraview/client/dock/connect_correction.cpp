@@ -65,7 +65,7 @@ void PanelParts::connect_correction() {
                    &StructuresSection::tell);
 }
 
-/// What the stylus drew while its button was held.
+/// Takes the stroke that the stylus drew while its button was held.
 void PanelParts::draw_felt(const MarkMade& made) {
   if (const auto* const path = std::get_if<MarkedPath>(&made)) {
     correction.draw_felt(path->points_mm);
@@ -107,7 +107,7 @@ void PanelParts::save_outline() {
       [this, structure = outline->structure, edits] { unsaved.note_outline_saved(structure, edits); });
 }
 
-/// Shows what would be sent, and sends it where that is wanted.
+/// Shows what would be sent, and sends it if the user agrees.
 void PanelParts::send_outline() {
   const auto outline = corrected_outline();
   if (!outline) return;

@@ -40,7 +40,7 @@ void PanelParts::connect_marks() {
   });
 }
 
-/// Shows what would be sent, and sends it where that is wanted.
+/// Shows what would be sent, and sends it if the user agrees.
 void PanelParts::send_marks() {
   const io::Series* const series = scans.shown() ? scans.shown()->of.details() : nullptr;
   if (!series) {

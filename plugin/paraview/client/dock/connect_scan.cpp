@@ -43,7 +43,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   if (!pqActiveObjects::instance().activeServer()) return;
   const bool restored = brought != Brought::by_opening && kept.is_open();
   session.release();
-  // Before the scene: what is chosen here is of the scan before.
+  // Before the scene: the present choice belongs to the previous scan.
   looks.begin_scan();
   if (!restored) {
     modes::Scene scene = scene_for(handle.scene, *handle.volume);
@@ -87,7 +87,7 @@ void PanelParts::note_scan(const ScanHandle& handle) {
                                                 : scan_words);
 }
 
-/// What a state file has restored is taken over: scan, scene, marks and views, as if the program had begun with it.
+/// Takes over what a state file has restored: scan, scene, marks and views, as if the program had begun with it.
 void PanelParts::adopt_state() {
   session.release();
   const auto sources = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
@@ -123,7 +123,7 @@ void PanelParts::leave_server() {
   if (!kept_in.isEmpty()) emit scans.told(kept_in, true);
 }
 
-/// All that a server has goes, and what is held of it is let go: first the force, and the recording with it.
+/// Releases everything of a server: first the force, and with it the recording.
 void PanelParts::leave(const QString& why) {
   if (layers.is_paused()) return;  // what follows may ask the lost server, which tells that it is lost
   layers.pause(true);

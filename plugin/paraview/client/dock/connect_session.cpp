@@ -41,7 +41,7 @@ void PanelParts::connect_session() {
                    [this](const QString& folder) { column->scan->open(folder.toStdString()); });
   QObject::connect(&session, &SessionController::polled, &dock,
                    [this, followed = std::uint64_t{0}](const SessionStatus& seen) mutable {
-                     // A recording that stands still does not keep the slices from being leafed through.
+                     // A paused recording must not prevent browsing the slices.
                      const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
                      if (!layers.is_paused()) follow_stylus(seen, moved);
                    });
@@ -72,7 +72,7 @@ void PanelParts::follow_stylus(const SessionStatus& seen, bool moved) {
   layers.draw_stylus();
 }
 
-/// Scan, frame and scene: what the stylus has, whatever is looked at.
+/// Shows the scan, frame and scene of the stylus, whatever the views show.
 void PanelParts::name_felt() {
   if (!scans.shown()) {
     const auto coming = scans.on_its_way();

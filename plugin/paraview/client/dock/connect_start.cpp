@@ -47,7 +47,7 @@ void PanelParts::connect_start() {
   });
   QObject::connect(column->scan, &ScanSection::thumbnail_drawn, page, &StartPage::set_picture);
   QObject::connect(&scans, &ScanModel::told, page, &StartPage::tell);
-  // Whose scan is coming is said at once, where the one before was named.
+  // Shows the patient of the coming scan at once, in place of the previous one.
   QObject::connect(&scans, &ScanModel::changed, &dock,
                    [this, page, cover = QPointer(cover), opening = QString()]() mutable {
                      const auto coming = scans.on_its_way();

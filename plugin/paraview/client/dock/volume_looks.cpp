@@ -19,7 +19,7 @@
 namespace palpate::plugin {
 namespace {
 
-// Of what the pipeline keeps beside scene and marks.
+// The key of this text in the pipeline, beside scene and marks.
 constexpr const char* volume_look_key = "VolumeLook";
 constexpr const char* felt_look = "felt";
 

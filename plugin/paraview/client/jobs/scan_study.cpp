@@ -41,7 +41,7 @@ ScanStudy study_scan(const std::shared_ptr<const io::Volume>& volume, const io::
   ScanStudy study;
   study.suggested = modes::suggest(volume, [&](double done) { return progress(suggesting * done); }).scene;
   study.sites = std::make_shared<const modes::SiteMap>(volume);
-  // The steps in a flow's speed are no boundaries: it is felt along.
+  // The steps in a flow's speed are not boundaries: flow has a scene of its own.
   if (study.suggested.modes.empty() || volume->vectors) study.suggested = scene_for("", *volume);
   const auto [low, high] = range_of(*volume);
   const double scale_mm = io::default_gradient_scale_mm(volume->geometry);

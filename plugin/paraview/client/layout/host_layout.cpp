@@ -56,7 +56,7 @@ void HostLayout::place_first() {
   const QString placed = QStringLiteral("palpate/placed");
   if (QSettings().value(placed).toBool()) return;
   QSettings().setValue(placed, true);
-  // Once the window is laid out without what is hidden.
+  // After the window is laid out without the hidden panels.
   constexpr int panel_width = 360, laid_out_ms = 300;
   QTimer::singleShot(laid_out_ms, this, [this] { window_.resizeDocks({&panel_}, {panel_width}, Qt::Horizontal); });
   // Above ParaView's, in a row of its own.
@@ -68,7 +68,7 @@ void HostLayout::place_first() {
   }
 }
 
-/// ParaView's Ctrl+S exports the values of the scan; what a user means is all that is here.
+/// ParaView's Ctrl+S exports the values of the scan; a user means to save the state.
 void HostLayout::let_key_save_state() {
   auto* const data = window_.findChild<QAction*>(QStringLiteral("actionFileSaveData"));
   auto* const state = window_.findChild<QAction*>(QStringLiteral("actionFileSaveServerState"));
@@ -114,7 +114,7 @@ void HostLayout::show_host() {
     if (widget) widget->show();
   }
   hidden_.clear();
-  // Of the tabs, the one that was shown last would stand in front: Information, which tells little.
+  // Otherwise the last shown tab would be in front: Information, which tells little.
   auto* const properties =
       window_.findChild<QDockWidget*>(QStringLiteral("propertiesDock"), Qt::FindDirectChildrenOnly);
   if (properties && properties->isVisibleTo(&window_)) properties->raise();

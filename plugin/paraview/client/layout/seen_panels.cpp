@@ -25,7 +25,7 @@ void follow(pqPropertiesPanel& panel) {
   panel.setRepresentation(active.activeRepresentation());
 }
 
-/// What it shows may be gone by the time that it is seen again, and would be held until then.
+/// The object may be deleted before the panel is visible again, and would be kept alive until then.
 void let_go(pqPropertiesPanel& panel) {
   panel.setRepresentation(nullptr);
   panel.setPipelineProxy(nullptr);
@@ -39,7 +39,7 @@ void follow(pqColorMapEditor& panel) {
   QMetaObject::invokeMethod(&panel, "updateActive");
 }
 
-/// It holds what it shows weakly.
+/// It only holds a weak reference.
 void let_go(pqColorMapEditor& /*panel*/) {}
 
 /// Not the dock's visibilityChanged: it is false if the dock is shown before it is laid out.

@@ -37,7 +37,7 @@ auto patient_of(const io::Series& series) {
   return std::pair(series.identity.patient_name, series.identity.patient_id);
 }
 
-/// Patients together, their studies together, all else in the order that they have.
+/// Grouped by patient, then by study; otherwise in the given order.
 std::vector<std::size_t> by_patient_and_study(const std::vector<const io::Series*>& all) {
   std::map<std::pair<std::string, std::string>, std::size_t> patients;
   std::map<std::string, std::size_t> studies;

@@ -39,7 +39,7 @@ bool ViewsCover::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-/// Black, as the views are. Drawn like this it does not count as opaque: what is under it is set up as if it were seen.
+/// Black, like the views. Drawn like this it does not count as opaque, so the views under it are set up as if visible.
 void ViewsCover::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), Qt::black);

@@ -53,7 +53,7 @@ void WindowBox::list() {
   show_window();
 }
 
-/// The one that the slices have; where it has no name, as one more.
+/// The slices' window; if it has no name, as an additional entry.
 void WindowBox::show_window() {
   const int custom = static_cast<int>(listed_.size());
   const Window& now = views_.window();

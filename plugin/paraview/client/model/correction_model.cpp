@@ -38,7 +38,7 @@ CorrectionModel::CorrectionModel(SceneModel& scene, QObject* parent)
   connect(&scene, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::stepped) follow_scene();
   });
-  // Undo, or a state file that was saved while one was running, may bring what a correction adds.
+  // Undo, or a state file saved during a correction, may bring what a correction adds.
   scene.set_clean([this](modes::Scene& from_pipeline) { return !structure_ && snap_no_more(from_pipeline); });
   slice_kept_.setSingleShot(true);
   slice_kept_.setInterval(slice_stays_ms);
@@ -169,7 +169,7 @@ void CorrectionModel::find_places() {
   });
 }
 
-/// Whoever takes back an edit, this or ParaView, it can be done again here.
+/// An edit that was undone here or in ParaView can be redone here.
 void CorrectionModel::follow_scene() {
   if (!structure_) return;
   modes::Scene scene = scene_.scene();
@@ -220,7 +220,7 @@ void CorrectionModel::move(const glm::dvec3& place) {
   emit stroke_changed();
 }
 
-/// A click alone, as that which gives a view the keyboard, traces nothing.
+/// A click alone, such as one that gives a view the keyboard focus, traces nothing.
 void CorrectionModel::let_go() {
   if (stroke().empty()) return;
   Trace drawn{.places = std::exchange(stroke_.places, {}), .over = stroke_.over};
@@ -263,7 +263,7 @@ void CorrectionModel::look_beside_next() {
                });
 }
 
-/// What was felt stays where it was felt. What was drawn over the outline goes to the scan's edge, where there is one.
+/// A felt stroke stays at its place. A stroke drawn over the outline moves to the scan's edge, if there is one.
 void CorrectionModel::finish_trace(const Trace& trace, const Edges& edges) {
   if (trace.over == Over::slice) {
     return add(tr("Trace"), io::TraceEdit{.points_mm = trace.places, .known_to_mm = known_to_of(edges)});
@@ -291,7 +291,7 @@ void CorrectionModel::add(const QString& what, const io::Edit& edit) {
   });
 }
 
-/// The newest first: a stroke that is still being looked at comes to nothing.
+/// The newest first: a stroke that still waits for its edges is discarded.
 void CorrectionModel::undo() {
   if (!structure_ || !can_undo()) return;
   if (is_tracing()) {
@@ -307,7 +307,7 @@ void CorrectionModel::undo() {
   });
 }
 
-/// The one after those that the scene has by then: another redo may be done before.
+/// The next one after the scene's edits at that time: another redo may be done before.
 void CorrectionModel::redo() {
   if (!can_redo()) return;
   std::vector<io::Edit> all = edits_;

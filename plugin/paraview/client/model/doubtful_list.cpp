@@ -5,8 +5,8 @@
 
 namespace palpate::plugin {
 
-/// It is corrected where the outline that is felt has left it by a good part of what it was off. An edit that was held
-/// back there, or was made elsewhere, corrects nothing.
+/// A place is corrected if the felt outline has moved away from it by a good part of its error. An edit that was held
+/// back there, or made elsewhere, corrects nothing.
 DoubtfulList::Fate DoubtfulList::fate(std::size_t place) const {
   constexpr double least_mm = 0.3, least_part = 0.5;
   const io::DoubtfulPlace& one = places_->places[place];

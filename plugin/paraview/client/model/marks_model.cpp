@@ -32,7 +32,7 @@ void MarksModel::forget() {
   emit changed();
 }
 
-/// A place without marks gets those that are here: they are of scans, and not of a session.
+/// A place without marks gets the present ones: they belong to scans, not to a session.
 void MarksModel::attach() {
   text_.clear();
   if (!in_pipeline_.text(marks_key).empty()) return follow_text();

@@ -72,7 +72,7 @@ void ScanModel::load_frame(int frame) {
                     });
 }
 
-/// What is felt stays the frame before until the other one is here: why_not_felt() keeps the force off meanwhile.
+/// The previous frame stays felt until the new one is loaded: why_not_felt() keeps the force off meanwhile.
 void ScanModel::fetch_frame(int frame) {
   auto& of = std::get<in_views::Shown>(in_views_);
   of.coming = in_views::ComingFrame{.frame = frame};

@@ -113,7 +113,7 @@ void ScanModel::take_fetched(const ScanWorld::Fetch& answer) {
   take(handle_of(answer.of, answer.volume, answer.frame, answer.frames), fetching.brought);
 }
 
-/// What is in the views stays there; what is felt stays, too.
+/// The views and the felt scan stay as they are.
 void ScanModel::give_up_fetching(const QString& why) {
   ++fetch_;
   world_.stop_fetching();
@@ -156,7 +156,7 @@ void ScanModel::restore(const SeriesRef& of, Brought brought) {
   fetch(of, remote, brought);
 }
 
-// What goes.
+// The removal of scans.
 
 void ScanModel::lose() {
   if (!seen()) return;

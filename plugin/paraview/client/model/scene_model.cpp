@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* scene_key = "Scene";
 
-/// Of a scene's JSON, or of its name or file. Throws where it is none.
+/// From a scene's JSON, or its name or file. Throws if it is not a scene.
 modes::Scene scene_of(const std::string& text) {
   return text.front() == '{' ? modes::scene_from_json(text, "scene") : modes::load_scene(text);
 }

@@ -348,7 +348,7 @@ void SessionController::poll() {
     status_.orientation = glm::normalize(glm::quat_cast(status_.workspace.rotation) * *turned);
   }
   status_.tissue = tissue_name(model_.scene(), live_.scan() ? live_.scan()->unit : std::string(), tick.value);
-  // A tick of before the last edit may tell of others.
+  // A tick before the last edit may refer to other structures.
   status_.nearest.reset();
   if (const auto plan = live_.plan(); plan && tick.scene_epoch == live_.epoch()) {
     status_.nearest = nearest_structure(tick, model_.scene(), plan->structures);

@@ -26,7 +26,7 @@ StateLine state_line_of(const SessionStatus& look) {
     const auto device = static_cast<device::State>(look.tick.stylus_state);
     const bool lost = device == device::State::fault || device == device::State::disconnected;
     const QString advice = QString::fromStdString(device::advice_for(fault));
-    // The stylus knows more than that it is lost.
+    // The stylus may know more than that it is lost.
     QString why = lost && !look.trouble.isEmpty() ? look.trouble : advice;
     if (fault == device::Fault::commander_silent && !look.held_up.isEmpty()) {
       why += QStringLiteral(" (%1)").arg(look.held_up);

@@ -26,7 +26,7 @@ igtl::Point point_of(const FeltMark& mark) {
           .owner = igtl::program_name};
 }
 
-/// A place that nobody has felt.
+/// A place that was not felt.
 FeltMark mark_of(const igtl::Point& point) {
   FeltMark mark;
   mark.name = point.name;

@@ -15,7 +15,7 @@ bool is_read(const modes::Scene& scene, const std::string& structure) {
   });
 }
 
-/// What is felt in it, without outlines' edits, without what a running correction adds, and without what is the hand's.
+/// The felt part of a scene, without edits of outlines, additions of a running correction, and settings of the hand.
 std::string work_in(modes::Scene scene) {
   const modes::Scene usual;
   scene.workspace = usual.workspace;
@@ -34,7 +34,7 @@ std::string key_of(const modes::SceneStructure& structure) {
   return structure.name + '\n' + structure.file + '\n' + segment;
 }
 
-/// One text for each, which names its scan and all that it is of.
+/// A text for each item, with its scan and all its data.
 std::vector<std::string> items_of(const std::string& scan, const Marks& marks) {
   std::vector<std::string> items;
   const auto add = [&](const Marks& one) { items.push_back(kept_text({{scan, one}})); };

@@ -41,7 +41,7 @@ QString doubt_in_words(const io::DoubtfulPlace& place) {
   return {};
 }
 
-/// By the axis that it is nearest to: a scan may lie obliquely.
+/// Named by the nearest axis, since a scan may be oblique.
 QString held_in_words(const io::Vec3& normal) {
   const io::Vec3 part = glm::abs(normal);
   if (part.z >= part.x && part.z >= part.y) return CorrectBox::tr("The stylus is held in the axial slice");

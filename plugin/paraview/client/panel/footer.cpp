@@ -61,8 +61,8 @@ Footer::Footer(SessionController& session, const SceneModel& model, QWidget* par
   show_connection();
 }
 
-/// What is felt now, and in which scan. The footer ends at the panel's lower edge: what may take another line stands
-/// above all that is pressed, which keeps its place so.
+/// The felt values and their scan. The footer ends at the panel's lower edge: lines that may wrap are above all
+/// buttons, so that the buttons keep their places.
 void Footer::add_values(QGridLayout& grid) {
   force_ = make_value(this, "palpateForce", tr("Force on the stylus"));
   QFont large = force_->font();
@@ -257,7 +257,7 @@ void Footer::show_look(const SessionStatus& look) {
   const QString past = look.force_n == 0   ? tr("no boundary touched")
                        : look.held.empty() ? tr("%1 behind the proxy").arg(depth)
                                            : tr("%1 past %2").arg(depth, QString::fromStdString(look.held));
-  // What is cut out of a long name stands in the tool tip; depth and error stay.
+  // The tool tip has the whole of a shortened name; depth and error stay.
   depth_->setText(depth_->fontMetrics().elidedText(past, Qt::ElideMiddle, depth_->width()));
   depth_->setToolTip(past);
   const QString tissue = QString::fromStdString(look.tissue);

@@ -33,7 +33,7 @@ constexpr int force_pixels = 130;
 constexpr std::array speeds{0.1, 0.25, 0.5, 1.0, 2.0, 5.0};
 constexpr std::size_t most_points_drawn = 2000;
 
-/// Every so many ticks: what a line or a chart can show.
+/// One of so many ticks: as many as a line or a chart can show.
 std::size_t stride_of(const RecordedSession& session) {
   return std::max<std::size_t>(1, session.size() / most_points_drawn);
 }

@@ -13,7 +13,7 @@ std::function<Profile()> StrokeRunner::run(const WantedStroke& stroke) {
   prepared_.read_ahead = live.felt().structures;
   prepared_ = {.felt = prepare(live.scene(), live.scan(), stylus.workspace_half_extent, prepared_),
                .scene = live.scene()};
-  // The plan is the one that is felt: as stiff as the stylus stands, placed as it is held.
+  // Uses the felt plan, with the stylus' present stiffness and workspace.
   return [plan = live.plan(), felt = prepared_.felt, scene = live.scene(), unit = live.scan()->unit,
           limit_n = limits_for(live.scene().limits, stylus).force, stroke] {
     Profile profile{.stroke = run_stroke(*plan, *felt.source, *stroke.from, *stroke.to, stroke.speed_mm_per_s),

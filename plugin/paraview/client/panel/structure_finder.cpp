@@ -34,7 +34,7 @@ void StructureFinder::look_into(const std::vector<std::filesystem::path>& places
   if (waiting_.empty()) return;
   const auto find = [places = waiting_, scan = scan_] {
     io::StructureCatalogue found = io::find_structures(places);
-    // Those that a scene will find, and no others: what is listed is what can be felt.
+    // Only registrations that a scene will find, so that exactly the listed structures can be felt.
     found.registrations.clear();
     std::set<std::filesystem::path> looked;
     StudyRegistrations study;

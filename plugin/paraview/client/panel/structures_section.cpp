@@ -163,7 +163,7 @@ void StructuresSection::follow_drawn() {
   }
 }
 
-/// What the scene names is listed and shown, in the scene's color, wherever it came from.
+/// Lists and shows the scene's structures, in the scene's colors, whatever their source.
 void StructuresSection::follow_scene() {
   follow_drawn();
   std::vector<std::filesystem::path> files;

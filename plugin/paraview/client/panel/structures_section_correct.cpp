@@ -57,7 +57,7 @@ void StructuresSection::follow_correction() {
   draw();
 }
 
-/// What goes out is what was drawn: a stroke that is on its way is waited for.
+/// Saving and sending wait for strokes that are not yet part of the outline.
 void StructuresSection::follow_strokes() {
   correct_box_->set_whole(corrected() != nullptr && !model_.is_waiting());
 }
@@ -77,7 +77,7 @@ QString StructuresSection::change_in_words() const {
          margins_in_words();
 }
 
-/// Of the outline with these edits to what the scene keeps the stylus out of, where one of them has changed.
+/// Measures from the edited outline to the scene's keep-outs, if one of them has changed.
 void StructuresSection::measure_margins() {
   const Entry* const entry = corrected_entry();
   const auto outline = corrected();

@@ -19,7 +19,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// The outline that its edits change: its file's, or that of the contours that make it.
+/// The outline before its edits: of its file, or of the contours that define it.
 std::shared_ptr<const io::DistanceField> before_edits_of(const LoadedStructure& structure) {
   const std::size_t making = structure.file.empty() ? 1 : 0;
   return structure.before_edits.size() > making ? structure.before_edits[making] : structure.distance;
@@ -37,7 +37,7 @@ bool StructuresSection::is_edited(const Entry& entry) {
   return entry.edits.size() > making_edits(entry.structure);
 }
 
-/// As it is felt; null where it is not.
+/// The felt structure; null if it is not felt.
 const LoadedStructure* StructuresSection::felt(const Entry& entry) const {
   const PreparedScene& prepared = session_.live().felt();
   if (!scan_ || !prepared.volume || io::raw_of(prepared.volume) != io::raw_of(scan_)) return nullptr;
@@ -51,14 +51,14 @@ const LoadedStructure* StructuresSection::felt(const Entry& entry) const {
   return found == structures.end() ? nullptr : &*found;
 }
 
-/// Measures and shapes, one after the other: first of what is shown.
+/// Measures and shapes, one after the other: first of visible structures.
 void StructuresSection::make_next() {
   if (making_.is_busy() || !scan_) return;
   const auto wants = [this](bool drawn) {
     return [this, drawn](const Entry& entry) {
       if (!entry.why_not.empty()) return false;
       if (!drawn) return !entry.made.measures;
-      // What is told of a correction is told of the field that is felt.
+      // Reports on a correction refer to the felt field.
       const LoadedStructure* const now = is_corrected(entry) ? felt(entry) : nullptr;
       if (now && now->edits == entry.edits && before_edits_of(*now) != entry.made.outline) return true;
       return entry.shown &&
@@ -104,7 +104,7 @@ void StructuresSection::take_made(const MadeStructure& made) {
   follow_correction();
 }
 
-/// Of several the first is told; each has it in its row.
+/// Of several such structures the first is reported; each is marked in its row.
 void StructuresSection::look_whether_off(Entry& entry) {
   if (!entry.made.measures || !entry.off.empty()) return;
   const bool first = std::ranges::all_of(entries_, [](const Entry& one) { return one.off.empty(); });
