@@ -13,7 +13,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// Leaves the ticks of these scenes, and their shares: all that is looked at here.
+/// Keeps only the ticks of these scenes, and their shares.
 std::size_t leave_out_others(Recording& recording, const std::set<std::uint32_t>& epochs) {
   std::vector<PrimitiveRecord> shares;
   std::size_t kept = 0, share = 0;
@@ -60,7 +60,7 @@ RecordedSession::RecordedSession(Recording recording, const io::Volume& volume) 
     const auto plan = plan_for(setting.scene, volume, record.half_extent_m);
     setting.workspace = plan->workspace;
     setting.structures = plan->structures;
-    // What is left while a change is on its way is what the tick before felt.
+    // At the start of a change, the old workspace is the previous tick's.
     setting.before = settings_.at(last).workspace;
     last = tick.scene_epoch;
   }

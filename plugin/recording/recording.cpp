@@ -105,7 +105,7 @@ Recording read_recording(const std::filesystem::path& file) {
     recording.header.scan_hash = read_text(input, "scan_hash");
     recording.header.seed = std::stod(read_text(input, "seed"));
     recording.header.rate_hz = std::stod(read_text(input, "rate_hz"));
-    // Ticks first: what a writer adds meanwhile is shares of later ones.
+    // Ticks first: a writer may meanwhile add shares, which then belong to later ticks.
     recording.ticks = read_table<TickRecord>(input, "frames", tick_row_type());
     recording.shares = read_table<PrimitiveRecord>(input, "shares", share_row_type());
     if (H5Lexists(input, "known_to_mm", H5P_DEFAULT) > 0) {

@@ -70,7 +70,7 @@ Handle create(const std::filesystem::path& file) {
   return {H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access), H5Fclose, "create-it-there"};
 }
 
-/// Beside what is left of sessions that did not end.
+/// A free name beside the leftovers of crashed sessions.
 std::filesystem::path free_partial(const std::filesystem::path& file) {
   std::filesystem::path partial = file.string() + ".partial";
   for (int n = 2; std::filesystem::exists(partial); ++n) partial = fmt::format("{}.{}.partial", file.string(), n);

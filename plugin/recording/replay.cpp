@@ -34,8 +34,8 @@ Poses poses_of(std::span<const TickRecord> ticks) {
   return poses;
 }
 
-/// One of the session's styluses. All of them read on from the same recorded poses, so that opening and closing one
-/// leaves the others where they are.
+/// One of the session's styluses. All of them continue to read the same recorded poses, so opening and closing one does
+/// not affect the others.
 class RecordedStylus final : public device::Stylus {
  public:
   RecordedStylus(std::optional<device::ReplayStylus>& poses, const StylusRecord& record) : poses_(poses) {
@@ -64,8 +64,7 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   return *found;
 }
 
-/// Infinity where one of the two is no number: no difference is larger, and none after it makes it forgotten. A session
-/// repeats numbers alone.
+/// Infinite if one of the two is not a number: then no later difference is larger. A session only replays numbers.
 double apart(const double (&recorded)[3], const double (&repeated)[3]) {
   const double distance = glm::length(vector_of(recorded) - vector_of(repeated));
   return std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
@@ -105,7 +104,7 @@ struct Replayer::Progress {
   std::unique_ptr<Session> session;
 };
 
-/// Asks of the session what was asked of it before the first of the coming ticks.
+/// Repeats the commands given to the session before the first of the coming ticks.
 void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
   const TickRecord& tick = coming.front();
   if (tick.scene_epoch != scene_epoch) {
@@ -116,7 +115,7 @@ void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
   if ((tick.commands & command::change_stylus) != 0) {
     const auto taken = std::find_if(coming.begin(), coming.end(),
                                     [&](const TickRecord& later) { return later.stylus_epoch != stylus_epoch; });
-    // One that the recording ends before is as good as the one before it: nothing is read from it.
+    // A stylus that the recording never reaches can be the previous one: no pose of it is read.
     const auto changed = stylus(taken == coming.end() ? stylus_epoch : taken->stylus_epoch);
     const std::uint32_t epoch = taken == coming.end() ? stylus_epoch + 1 : taken->stylus_epoch;
     while (stylus_epoch != epoch) stylus_epoch = session->change_stylus(changed);
@@ -168,7 +167,7 @@ void Replayer::feed(const Recording& part) {
   }
   progress.session->collect();
   progress.poses.reset();
-  // Epochs ascend: what is over does not come again, however long the session.
+  // Epochs ascend, so finished ones can be dropped, however long the session is.
   std::erase_if(progress.scenes, [&](const SceneRecord& record) { return record.epoch < progress.scene_epoch; });
   std::erase_if(progress.styluses, [&](const StylusRecord& record) { return record.epoch < progress.stylus_epoch; });
 }

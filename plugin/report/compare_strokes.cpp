@@ -18,7 +18,7 @@ namespace {
 constexpr double step_m = 0.5e-3;    // of the hand: a tremor's 0.05 mm (root mean square) do not make a way
 constexpr double most_steps = 3000;  // coupling takes the product of both
 
-/// Where the probe was for a while, and the mean of what was felt meanwhile.
+/// A place of the probe, and the mean force there.
 struct Step {
   glm::dvec3 place_mm{0};
   double along_mm = 0;

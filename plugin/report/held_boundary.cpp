@@ -81,7 +81,7 @@ std::optional<HeldBoundary> held_boundary(std::span<const PrimitiveRecord> share
   for (const modes::ActiveMode& active : felt.plan->modes) {
     if (active.scene_index != *mode) continue;
     held.full_strength_n = active.strength.most_n();
-    // The proxy rests where the strength, on its rise, is just the force: what the boundary takes lies farther in.
+    // The proxy rests where the rising strength equals the force: the boundary's largest strength is farther in.
     const double pressed_mm = glm::distance(proxy_mm, probe_mm);
     const glm::dvec3 inward = pressed_mm > 0 ? (probe_mm - proxy_mm) / pressed_mm : glm::dvec3(0);
     held.strength_n = strength_ahead_n(active, *felt.plan, *felt.source, proxy_mm, inward);

@@ -57,7 +57,7 @@ SliceView view_of(const Tracks& tracks, const std::string& unit, const io::Field
     view.window_width = 1400;
     return view;
   }
-  // No absolute scale: the window spans what lies around the path.
+  // No absolute scale: the window covers the values around the path.
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (int n = 0; n < 4096; ++n) {
@@ -152,7 +152,7 @@ Chart force_time_chart(const Recording& recording, const modes::Scene& scene) {
     sent.y.push_back(glm::length(vector_of(tick.sent_n)));
     std::vector<glm::dvec3> force(scene.modes.size(), glm::dvec3(0));
     for (std::uint32_t n = 0; n < tick.share_count; ++n, ++share) {
-      // What is left of a scene that went is not one of this one's modes.
+      // Shares left from a previous scene are not of this scene's modes.
       if (recording.shares[share].mode < force.size()) {
         force[recording.shares[share].mode] += vector_of(recording.shares[share].force_n);
       }

@@ -13,7 +13,7 @@ namespace {
 constexpr double header = 34;        // pixels above the image, for the title
 constexpr double mm_per_newton = 6;  // length of a force arrow
 
-/// Patient points to pixels; what is off the plane is projected on to it.
+/// Maps patient points to pixels; points off the plane are projected onto it.
 struct Projection {
   const SliceView& view;
   double pixels_per_mm;

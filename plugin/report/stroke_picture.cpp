@@ -38,8 +38,8 @@ std::string who_pushes(const Profile& profile, const StrokePoint& point) {
   return fmt::format("{} ({})", display_name(profile.scene, *point.boundary), solver::name_of(*point.primitive));
 }
 
-/// A curve for each boundary and kind of primitive that pushes, and one for where none does. Of one boundary the second
-/// kind is dashed.
+/// A curve for each boundary and type of primitive that pushes, and one for places where none does. The second type of
+/// a boundary is dashed.
 std::vector<Curve> force_curves(const Profile& profile, const std::vector<double>& depths) {
   const auto empty = [&](const std::string& label, const Color& color) {
     return Curve{.label = label, .x = depths, .y = std::vector<double>(depths.size(), not_a_number), .color = color};
@@ -70,7 +70,7 @@ std::vector<Curve> force_curves(const Profile& profile, const std::vector<double
   return curves;
 }
 
-/// What has a name: the scene's tissues, or CT's.
+/// The named tissue: the scene's, or CT's.
 std::string tissue_of(const Profile& profile, double value) {
   if (!std::isfinite(value)) return {};
   const bool held =

@@ -48,7 +48,7 @@ struct Slice {
 constexpr std::array slices{Slice{"axial, from the feet", {1, 0, 0}, {0, 1, 0}},
                             Slice{"sagittal, from the left", {0, 1, 0}, {0, 0, -1}}};
 
-/// What a slice shows: the value in gray, and in color the boundary that is strongest at the nearest voxel.
+/// The content of a slice: the value in gray, and in color the strongest boundary at the nearest voxel.
 class Painter {
  public:
   Painter(const modes::Suggestion& suggestion, const std::shared_ptr<const io::Volume>& volume)
@@ -62,7 +62,7 @@ class Painter {
         box_(bounding_box(volume->geometry)) {
     const io::Bins& values = suggestion.edges.values;
     low_ = suggestion.typical.empty() ? values.low : std::ranges::min(suggestion.typical);
-    // Up to the brightest tissue, with some room for what is brighter.
+    // Up to the brightest tissue, with some room above it.
     high_ = suggestion.typical.empty() ? values.high : low_ + 1.15 * (std::ranges::max(suggestion.typical) - low_);
   }
 
@@ -135,7 +135,7 @@ class Painter {
     return {byte(color.red), byte(color.green), byte(color.blue)};
   }
 
-  /// Null if none is felt. What lies on the two sides is asked only where value and gradient let a mode be felt.
+  /// Null if none is felt. The two sides are computed only if value and gradient let a mode be felt.
   std::pair<const modes::Mode*, double> strongest_at(const glm::ivec3& voxel, const glm::vec3& gradient) const {
     std::pair<const modes::Mode*, double> strongest{nullptr, 0};
     const auto value = voxels_.value(voxel);
@@ -206,7 +206,7 @@ void paint_pairs(const modes::Suggestion& suggestion, const std::string& unit, c
     canvas.disc(at, 9, colors::white);
     canvas.disc(at, 7, color);
   }
-  // Tissues that are much alike: every other number stands a row farther out.
+  // Similar tissues: every other number is a row farther out.
   constexpr double widest = 44, highest = 14;  // pixels of a number
   bool out_x = false, out_y = false;
   for (std::size_t t = 0; t < suggestion.typical.size(); ++t) {

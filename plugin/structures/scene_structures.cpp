@@ -151,7 +151,7 @@ std::size_t common_edits(const modes::SceneStructure& wanted, const LoadedStruct
   return static_cast<std::size_t>(std::ranges::mismatch(wanted.edits, known.edits).in1 - wanted.edits.begin());
 }
 
-/// The same outline with that reach, which has the most of the scene's edits; null: there is none.
+/// The loaded structure with the same outline and reach, and the most of the scene's edits; null: there is none.
 const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double reach_mm,
                                    const std::vector<LoadedStructure>& before) {
   const std::string file = std::filesystem::path(wanted.file).string(), segment = segment_of(wanted);

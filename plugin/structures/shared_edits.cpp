@@ -58,7 +58,7 @@ std::shared_ptr<const io::DistanceField> edited_on(const std::shared_ptr<const i
 std::shared_ptr<const io::DistanceField> shared_edited(const std::shared_ptr<const io::DistanceField>& before,
                                                        const io::Edit& edit,
                                                        const std::shared_ptr<const io::Volume>& scan) {
-  // Of a scan that nobody owns it is not known for how long it is that one.
+  // A scan without an owner may be replaced at any time, so it is no key.
   if (reads_scan(edit) && scan.use_count() == 0) return edited_on(before, edit, scan);
   {
     const std::lock_guard lock(edits_mutex);

@@ -13,7 +13,7 @@ constexpr double solid_hu = -400;
 constexpr double bridge_mm = 3;    // half of the width of what is cut between the body and what it lies on
 constexpr double hanging_mm = 10;  // an ear stays
 
-/// Labels of pieces that touch from slice to slice, as one label each.
+/// Joins the labels of pieces that touch from slice to slice.
 class Pieces {
  public:
   int add() {
@@ -56,7 +56,7 @@ cv::Mat disc(double radius_mm, double pixel_mm) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
-/// The pieces of all slices, linked where they lie above each other; -1 if there is none.
+/// The pieces of all slices, linked where they are above each other; -1 if there is none.
 std::vector<cv::Mat> label_pieces(const std::vector<cv::Mat>& slices, Pieces& pieces) {
   std::vector<cv::Mat> labels;
   for (const cv::Mat& slice : slices) {

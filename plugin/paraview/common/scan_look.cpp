@@ -107,7 +107,7 @@ namespace {
 
 constexpr double few = 0.04;  // of the voxels: vessels are no more
 
-/// Threshold and brightness where the values' spread is known; parts of their range where it is not.
+/// Threshold and brightness from the distribution of values, or from their range if the distribution is unknown.
 std::pair<double, double> bright_part(const Values& values) {
   const auto& shares = values.shares;
   if (shares.size() >= 100) return {otsu_threshold(shares), shares[shares.size() - 2]};

@@ -20,7 +20,7 @@ constexpr double finest_mm = 0.25;
 constexpr int most_across_a_sheet = 600, most_across_a_box = 160;
 constexpr int block = 8;  // nodes a side: sampled once where the surface is far away
 
-/// Nodes of a lattice, and the distance at each of them near where it is `at_mm`; elsewhere only its side is right.
+/// A lattice with the distance at each node near `at_mm`; elsewhere only its sign is right.
 template <typename PlaceOf>
 vtkSmartPointer<vtkImageData> sampled(const io::DistanceField& distance, const glm::ivec3& size, double step,
                                       const PlaceOf& place_of, double at_mm = 0) {

@@ -24,7 +24,7 @@ struct Range {
   bool has_infinite = false;
 };
 
-/// Of the finite values; NaN is not infinite, and io marks with the least float what was not measured.
+/// The range of the finite values, without NaN and the lowest float, with which io marks missing data.
 template <typename Stored>
 Range<Stored> range_of(std::span<const Stored> values) {
   Range<Stored> range;

@@ -67,13 +67,13 @@ io::Volume::Voxels voxels_of(const io::Volume& volume, int first, int count) {
       volume.voxels);
 }
 
-/// The frame where it is held, or cannot be had in parts.
+/// The whole frame if it is in the store, or cannot be read in parts.
 std::shared_ptr<const io::Volume> whole_of(const io::Series& series, int frame) {
   const auto held = held_scan(series, frame);
   return held || series.frames_per_position == 1 ? held : load_scan(series, frame);
 }
 
-/// What tells of the whole scan without its voxels: of a scan in parts, what one slice says and the series' geometry.
+/// The whole scan's data without its voxels; for a scan read in parts, from one slice and the series' geometry.
 io::Volume head_of(const io::Series& series) {
   io::Volume head = *load_slice(series, 0);
   head.geometry = series.geometry;
@@ -126,7 +126,7 @@ SlicesAnswered answer(const io::Series& series, const SlicesAsked& asked) {
       return answered;
     }
     const auto some = whole ? whole : load_slices(series, asked.first, asked.count);
-    // The whole scan would be another one than what is put together of what is left.
+    // The whole scan would differ from the one assembled from the remaining slices.
     if (!whole && some->geometry.dimensions.z != asked.count) throw io::DicomError(some->warnings.front());
     const int first = whole ? asked.first : 0;
     if (first < 0 || asked.count < 1 || asked.count > some->geometry.dimensions.z - first) {

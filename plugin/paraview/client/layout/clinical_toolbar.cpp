@@ -38,7 +38,7 @@ QIcon layout_icon(const QPalette& colors, int across) {
   return QIcon(picture);
 }
 
-/// An icon with the drawing of a ruler or an angle.
+/// What a ruler or an angle draws.
 QIcon measure_icon(const QPalette& colors, Measure measure) {
   constexpr int side = 64, edge = 8, thick = 6, mark = 5;
   QPixmap picture(side, side);
@@ -94,7 +94,7 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   show_connection(false, false);
 }
 
-/// Opens a folder, or a recent one.
+/// Opens a folder, or one of those that were opened before.
 void ClinicalToolbar::add_open() {
   QAction* const open =
       add("palpateToolbarOpen", tr("Open…"), tr("Opens a folder of DICOM files, with all its subfolders"));

@@ -115,7 +115,7 @@ void StructuresSection::look_whether_off(Entry& entry) {
   tell(before.isEmpty() ? words(entry.off) : before + QLatin1Char('\n') + words(entry.off), true);
 }
 
-/// Where the margins of what the scene makes of a structure begin, as its distance has it.
+/// The distances at which the margins of a structure in the scene begin.
 std::vector<double> StructuresSection::margins_of(const io::Structure& structure) const {
   const modes::Scene& scene = model_.scene();
   std::vector<double> margins;
@@ -147,7 +147,7 @@ void StructuresSection::draw() {
     }
     if (!now || now->edits != entry.edits || now->edits == entry.made.edits) continue;
     if (entry.made.edits.size() <= making_edits(entry.structure)) drawn.surface_before = drawn.surface;
-    // The lines on the slices are those that are felt, also while the surface is on its way.
+    // The lines on the slices are those of the felt field, even while the surface is still being computed.
     drawn.distance = now->distance;
     drawn.before = is_edited(entry) ? before_edits_of(*now) : nullptr;
     if (const auto box = io::box_of_edits(now->edits)) {

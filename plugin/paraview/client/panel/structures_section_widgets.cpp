@@ -73,7 +73,7 @@ void StructuresSection::build() {
   column->addWidget(message_);
 }
 
-/// What one press makes of the structure that is marked.
+/// The buttons for the uses of the chosen structure, one press each.
 QWidget* StructuresSection::build_uses() {
   auto* const box = new QWidget(this);
   auto* const row = new QHBoxLayout(box);

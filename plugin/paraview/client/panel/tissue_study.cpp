@@ -34,7 +34,7 @@ void TissueStudy::take(const std::shared_ptr<const ScanStudy>& study, const QStr
   proposed.workspace = model_.scene().workspace;
   emit studied(study, proposed, unit);
   session_.set_sites(study->sites);
-  // What is felt or was edited already is not taken away from under the hand.
+  // A felt or edited scene is not replaced under the user's hand.
   if (!model_.is_edited() && !session_.live().is_connected()) model_.propose(proposed);
 }
 

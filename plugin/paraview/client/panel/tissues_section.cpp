@@ -37,12 +37,12 @@ modes::Scene with_hand_of(modes::Scene scene, const modes::Scene& now) {
   return scene;
 }
 
-/// What is felt in it, to tell scenes apart.
+/// The felt part of a scene, to distinguish scenes.
 std::string text_of(const modes::Scene& scene) {
   return modes::to_json(with_hand_of(scene, {}));
 }
 
-/// What the rows depend on.
+/// The properties of a mode that the rows depend on.
 std::string kind_of(const modes::Mode& mode) {
   return mode.type + '\n' + mode.from + '\n' + mode.to;
 }
@@ -282,7 +282,7 @@ void TissuesSection::show_values() {
   show_alike();
 }
 
-/// Where two that are felt are too much of the same strength to be told apart.
+/// Marks pairs of felt boundaries whose strengths are too similar to be distinguished.
 void TissuesSection::show_alike() {
   const modes::Scene& scene = model_.scene();
   for (const auto& one : boundaries_) {

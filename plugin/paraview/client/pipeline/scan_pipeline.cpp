@@ -65,9 +65,9 @@ void ScanPipeline::follow(ScanModel& model) {
                    [this](pqPipelineSource* source) { watch_added(source); });
 }
 
-// What the user changes.
+// Changes by the user.
 
-/// Once ParaView is done with it. What is shown anew meanwhile has a reader again.
+/// After ParaView has finished the removal. If a scan was shown again meanwhile, it has a reader.
 void ScanPipeline::watch_removed(const pqPipelineSource* removed) {
   if (removed != source_) return;
   QTimer::singleShot(0, &lifetime_, [this] {
@@ -105,7 +105,7 @@ void ScanPipeline::watch_time() {
                            [this] { QTimer::singleShot(0, &lifetime_, [this] { model_->follow_time(); }); });
 }
 
-/// What is shown from now on is this.
+/// From now on this is the shown scan.
 void ScanPipeline::take(const ScanHandle& scan) {
   const io::Series* const details = scan.of.details();
   views_.set_scan_texts(details ? identity_text(*details) : QString(), details ? details->details.thickness_mm : 0);
@@ -203,8 +203,7 @@ void ScanPipeline::read(const SeriesRef& of, int frame, pqServer& server) {
   }
   source_->updatePipeline();
   set_animation_time(frame);  // another series: the time starts anew
-  // There is nothing left for an Apply button to do; but the properties panel is told of the series only later, and
-  // takes that for a change.
+  // Nothing is left to apply; but the properties panel learns of the series only later, and takes that for a change.
   QTimer::singleShot(0, source_, [source = source_] { source->setModifiedState(pqProxy::UNMODIFIED); });
 }
 
@@ -294,7 +293,7 @@ int ScanPipeline::frame_in_views(int frames) const {
   return source_ ? frame_at(frames, source_->getServer()->getTimeKeeper()->getTime()) : 0;
 }
 
-// What is seen.
+// What the views show.
 
 ViewFacts ScanPipeline::facts() const {
   if (!source_) return {};

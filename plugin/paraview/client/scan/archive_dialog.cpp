@@ -112,7 +112,7 @@ void ArchiveDialog::build_tls(QFormLayout& form) {
   tls_name_->setObjectName(QStringLiteral("palpateArchiveTlsName"));
   tls_name_->setToolTip(tr("The host name in the archive's certificate, if it differs from the host above"));
   form.addRow(label_of("--tls-name"), tls_name_);
-  // What was entered for an archive of that name is shown, and can be changed.
+  // The settings of an archive with that name are shown, and can be changed.
   connect(name_, &QLineEdit::editingFinished, this, [this] { show_tls(); });
 }
 
@@ -157,7 +157,7 @@ QString ArchiveDialog::name() const {
   return name_->text().trimmed();
 }
 
-/// What the dialog does not ask for (time-outs, our address) stays as it was entered on the command line.
+/// Settings that the dialog does not show (time-outs, our address) stay as entered on the command line.
 io::Archive ArchiveDialog::archive() const {
   io::Archive archive;
   for (const io::Archive& entered : read_archives()) {

@@ -108,15 +108,15 @@ void FilterRow::cancel() {
   follow();
 }
 
-/// What was chosen for another scan, or for another frame, is not chosen for this one. What undo brings back is the
-/// scene's, whatever the scan.
+/// A choice for another scan or frame does not apply to this one. A filter that undo restores belongs to the scene, on
+/// any scan.
 void FilterRow::follow_scan() {
   const auto scan = session_.live().scan();
   if (!loader_.is_busy() || !scan || filtered_.lock() == scan) return;
   brought_back_ ? compute(io::Filter(through_), ready_) : cancel();
 }
 
-/// The row says what the scene has.
+/// The row shows the scene's filter.
 void FilterRow::follow() {
   setEnabled(session_.live().scan() && !session_.live().scan()->vectors);
   if (!loader_.is_busy()) show(model_.scene().filter);  // else it says what was asked for
@@ -132,7 +132,7 @@ void FilterRow::show(const io::Filter& filter) {
                                                      : filter.sigma_mm);
 }
 
-/// What the number means for the type that is chosen.
+/// The meaning of the number for the chosen type.
 void FilterRow::offer_amount() {
   const QSignalBlocker quiet(amount_);
   const io::FilterType* const type = type_chosen_in(*type_);

@@ -29,7 +29,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// What is being done, and how much of it.
+/// The current work and its progress.
 struct Work {
   QString what;
   double done = 0;
@@ -98,7 +98,7 @@ void ScanSection::build_tabs() {
   for (QWidget* const one : {static_cast<QWidget*>(tabs_), folder_, static_cast<QWidget*>(archive_)}) {
     layout()->addWidget(one);
   }
-  // No pages of a tab widget: all of those would be as tall as the tallest.
+  // Not pages of a tab widget, because all of these would be as tall as the tallest.
   connect(tabs_, &QTabBar::currentChanged, this, [this](int tab) {
     folder_->setVisible(tab == 0);
     archive_->setVisible(tab == 1);
@@ -106,7 +106,7 @@ void ScanSection::build_tabs() {
   connect(archive_, &ArchiveTab::fetched, this, [this](const QString& folder) { open(folder.toStdString()); });
 }
 
-/// Of the folder: what opens one, and what was found in it.
+/// The tab of the folder: buttons to open one, and the series found in it.
 void ScanSection::build_series() {
   auto* const folder = new QPushButton(tr("Open DICOM folder…"), this);
   folder->setObjectName(QStringLiteral("palpateOpen"));

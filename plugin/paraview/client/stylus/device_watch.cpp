@@ -9,7 +9,8 @@ namespace {
 constexpr int glance_ms = 1000;
 constexpr int glances_until_again = 3;
 
-/// The names of what is plugged in, which are cheap to read; $PALPATE_PLUGGED names other folders than the kernel's.
+/// The names of plugged-in devices, which are cheap to read; $PALPATE_PLUGGED names folders to be used instead of the
+/// kernel's.
 QStringList plugged_now() {
   const QString named = QString::fromLocal8Bit(qgetenv("PALPATE_PLUGGED"));
   const QString folders = named.isEmpty() ? QStringLiteral("/sys/bus/usb/devices:/sys/class/hidraw") : named;

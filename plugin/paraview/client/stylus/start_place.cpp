@@ -50,7 +50,7 @@ class Grid {
 
 constexpr glm::ivec3 neighbours[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-/// Cells away from the nearest of those that are marked.
+/// The distance, in cells, from the nearest marked cell.
 std::vector<int> steps_from(const Grid& grid, const std::vector<bool>& marked) {
   std::vector<int> steps(grid.size(), -1);
   std::queue<std::size_t> next;

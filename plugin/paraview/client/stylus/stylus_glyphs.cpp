@@ -264,7 +264,7 @@ void StylusGlyphs::show_shares(const SessionStatus& look, const modes::Scene& sc
       case solver::PrimitiveType::line:
       case solver::PrimitiveType::directed_force:
         if (rods < rods_.size()) {
-          // A line pulls across itself, a force along: both are drawn as what they do to the proxy.
+          // A line pulls perpendicularly to itself, a force along itself: both are drawn by their effect on the proxy.
           const double thick = how.thick_mm();
           Part& line = *rods_[rods++];
           line.place(look.proxy_mm, standing_along(acts / newtons), {thick, rod_pixels * how.mm_per_pixel, thick});

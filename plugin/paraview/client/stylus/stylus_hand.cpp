@@ -42,7 +42,7 @@ struct StylusHand::State {
     renderer.GetDisplayPoint(&display.x);
     return display;
   }
-  /// The place in the patient under the pointer, as deep as the one that is dragged.
+  /// The place in the patient under the pointer, at the depth of the dragged place.
   glm::dvec3 under_pointer() const {
     const int* const at = interactor->GetEventPosition();
     vtkRenderer& renderer = *view.GetRenderer();

@@ -195,7 +195,7 @@ void StylusSection::go_to_stylus() {
 }
 
 void StylusSection::show_devices(const std::vector<device::FoundDevice>& found) {
-  // Whatever comes and goes, the choice stays: what is held may be what was unplugged.
+  // The choice stays when devices are plugged in or out: the unplugged one may be connected.
   const QVariant chosen = device_->currentData();
   const QString chosen_text = device_->currentText();
   const QSignalBlocker quiet(device_);

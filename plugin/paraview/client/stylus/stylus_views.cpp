@@ -167,7 +167,7 @@ bool StylusViews::pick(Pick what, const glm::dvec3& near, const glm::dvec3& far)
   const auto seen = first_seen(*values_, opacity_, near, far);
   if (!seen && what == Pick::pressed) return false;
   if (seen) picked_mm_ = *seen;
-  // Beside what is seen a drag stays where it was. A copy is called, for picking may end in the call.
+  // Where nothing is visible a drag keeps its last place. A copy is called, because the call may end the picking.
   const auto pick = pick_;
   pick(what, picked_mm_);
   return true;

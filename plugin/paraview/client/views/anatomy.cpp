@@ -86,7 +86,7 @@ Sight sight_of(Plane plane, const std::array<glm::dvec3, 3>& directions) {
   const auto axes = index_axes(directions);
   Sight sight{.index_axis = axes[which]};
   sight.along = turned_towards(normal_of(sight.index_axis, directions), wanted.along);
-  // Up is the edge of the slice that is nearest to it: a tilted scan stands upright in its own slices.
+  // Up is the nearest edge of the slice, so that a tilted scan is upright in its own slices.
   const glm::dvec3& a = directions[static_cast<std::size_t>((sight.index_axis + 1) % 3)];
   const glm::dvec3& b = directions[static_cast<std::size_t>((sight.index_axis + 2) % 3)];
   const glm::dvec3& edge = std::abs(glm::dot(a, wanted.up)) > std::abs(glm::dot(b, wanted.up)) ? a : b;

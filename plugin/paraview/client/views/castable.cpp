@@ -30,8 +30,8 @@ bool can_be_cast(vtkImageData& image) {
   vtkDataArray* const values = image.GetPointData()->GetScalars();
   if (!values || values->GetNumberOfComponents() != 1) return false;
   if (values->GetDataTypeSize() <= 2) return true;
-  // Of other numbers VTK makes 32 768 steps from the least to the greatest, and where they are flat it looks three
-  // voxels ahead, also of the coarse ones.
+  // VTK maps wider numbers to 32 768 steps from the least to the greatest, and in flat regions it reads three voxels
+  // ahead, also on the coarse volume.
   constexpr double most_range = 1e6;
   constexpr int fewest_voxels = 8;
   const int* const size = image.GetDimensions();

@@ -43,7 +43,7 @@ class Directions : public vtkDirectionEncoder {
   float* GetDecodedGradient(int value) override { return table_.data() + 3 * static_cast<std::ptrdiff_t>(value); }
   int GetNumberOfEncodedDirections() override { return lit_ ? 0 : direction_codes; }
   float* GetDecodedGradientTable() override { return table_.data(); }
-  /// None is to be lit anew.
+  /// True: the directions are lit already, and are not lit again.
   void set_lit(bool lit) { lit_ = lit; }
 
  private:
@@ -75,7 +75,7 @@ std::vector<double> light_on(vtkRenderer& renderer, vtkVolume& volume) {
   return all;
 }
 
-/// All that a picture depends on, besides what is drawn in front of the volume.
+/// Everything that a picture depends on, except objects drawn in front of the volume.
 std::vector<double> sight_of(vtkRenderer& renderer, vtkVolume& volume, Caster& caster) {
   std::vector<double> all = light_on(renderer, volume);
   vtkCamera& camera = *renderer.GetActiveCamera();
@@ -96,7 +96,7 @@ std::vector<double> sight_of(vtkRenderer& renderer, vtkVolume& volume, Caster& c
 
 }  // namespace
 
-/// What was cast last: four numbers for a pixel.
+/// The latest picture: four numbers for each pixel.
 struct Caster::Picture {
   std::vector<std::uint16_t> pixels;
   int memory_width = 0;
@@ -110,8 +110,8 @@ Caster::Caster() {
   DirectionEncoder->Delete();
   DirectionEncoder = Directions::New();
   GradientEstimator->SetDirectionEncoder(DirectionEncoder);
-  // A sample's light is that of the eight voxels around it. Beside the skin some of them have no gradient: of those
-  // VTK takes none.
+  // A sample is lit with the eight voxels around it. Beside the skin some of them have no gradient, and VTK ignores
+  // these.
   constexpr float where_flat = 0.5F;
   GradientShader->SetZeroNormalDiffuseIntensity(where_flat);
 }
@@ -177,7 +177,7 @@ Caster::Picture Caster::picture() const {
   return now;
 }
 
-/// Where rays are to be cast: what is drawn until then.
+/// Fills the rows still to be cast from a coarse picture.
 void Caster::enlarge(const Picture& coarse) {
   const int* const origin = RayCastImage->GetImageOrigin();
   const double ratio = RayCastImage->GetImageSampleDistance() / coarse.distance;

@@ -161,7 +161,7 @@ void ClinicalViews::make_room() {
   layout_ = layout;
 }
 
-/// What is being shown, while its views are made.
+/// The scan whose views are being made.
 struct ClinicalViews::Making {
   QPointer<pqPipelineSource> source;
   Shown shown;
@@ -385,7 +385,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   patient_.reset();
   views_.clear();
   prepare(image, lattice);
-  // By what they show: their names are in the language of the program that saved them.
+  // Identified by their contents, since their names are in the language of the program that saved them.
   for (pqView* const one : source.getViews()) {
     auto* const view = qobject_cast<pqRenderView*>(one);
     pqDataRepresentation* const shown = view ? source.getRepresentation(view) : nullptr;

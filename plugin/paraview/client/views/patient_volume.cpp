@@ -43,7 +43,7 @@ vtkPVRenderView& render_view_of(const pqRenderView& view) {
   return *vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
 }
 
-/// A copy of a CT of which nothing but the body is left; null if there is nothing else.
+/// A copy of a CT with only the body; null if there is nothing else in it.
 vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
   vtkDataArray& values = *image.GetPointData()->GetScalars();
   const int* const size = image.GetDimensions();
@@ -81,7 +81,7 @@ PatientVolume::PatientVolume(pqRenderView& view, pqPipelineSource& scan, bool ho
                                                vtkCommand::ModifiedEvent, again);
   }
   take_image();
-  // Its values may be filtered, or read anew.
+  // Its values may have been filtered, or read again.
   QObject::connect(&scan, QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), &lifetime_,
                    [this] { take_image(); });
 }
@@ -98,7 +98,7 @@ void PatientVolume::take_image() {
   vtkDataArray* const values = image ? image->GetPointData()->GetScalars() : nullptr;
   const bool same = whole_image_ && whole_image_->GetPointData()->GetScalars() == values;
   const bool seek_body = values && one_frame && hounsfield_;
-  // The view's own timer is then started after those of the slices. A large scan's body takes long to find.
+  // Starts the view's own timer after those of the slices. Finding the body of a large scan takes long.
   constexpr int no_wait_ms = 1, most_wait_ms = 3000;
   if (waits_ && !(seek_body && draws_without_card())) {
     QTimer::singleShot(seek_body ? most_wait_ms : no_wait_ms, &lifetime_, [this] { begin_to_draw(); });
@@ -146,7 +146,7 @@ void PatientVolume::set_hidden(bool hidden) {
   if (std::exchange(hidden_, hidden) != hidden) refresh();
 }
 
-/// The one that the representation has put into the view.
+/// The volume that the representation has put into the view.
 vtkVolume* PatientVolume::of_paraview() const {
   if (taken_out_) return taken_out_;
   vtkVolumeCollection& volumes = *render_view_of(*view_).GetRenderer()->GetVolumes();
@@ -202,7 +202,7 @@ void PatientVolume::draw_ours(vtkVolume& theirs, vtkImageData& image, bool cast)
     own_->PickableOff();
     render_view_of(*view_).GetRenderer()->AddVolume(own_);
   }
-  // What is chosen for the one is seen of the other.
+  // Properties set for one also apply to the other.
   if (cast) {
     if (!look_watch_) {
       own_->SetProperty(vtkNew<vtkVolumeProperty>());

@@ -80,7 +80,7 @@ bool SliceMouse::let_go() {
 
 bool SliceMouse::move() {
   const int* const at = interactor_->GetEventPosition();
-  // First: what a drag changes is told of together with where the pointer is now.
+  // First, so that the texts after a drag use the pointer's present position.
   owner_.pointer_ = {at[0], at[1]};
   if (drag_ == Drag::window || drag_ == Drag::scroll) {
     drag_ == Drag::window ? drag_to(at[0], at[1]) : owner_.scroll_to(owner_.bar_->part_at(at[1]));
@@ -96,7 +96,7 @@ bool SliceMouse::move() {
   return false;
 }
 
-/// What is not used here may be ParaView's: 3 would make the view one for two eyes.
+/// Digits are not passed on: ParaView's own 3 would make the view stereoscopic.
 bool SliceMouse::key(bool pressed) {
   const char key = interactor_->GetKeyCode();
   const bool modified = interactor_->GetControlKey() || interactor_->GetAltKey();

@@ -27,7 +27,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// Of OpenGL; empty if there is none.
+/// The name of OpenGL's renderer; empty if there is none.
 QByteArray renderer_name() {
   QOffscreenSurface surface;
   surface.create();
@@ -57,7 +57,7 @@ vtkSmartPointer<vtkImageData> thinned(vtkImageData& image, int step) {
   return own;
 }
 
-/// VTK offers no other way out of its gradients. It tells of their progress on the thread that asked for them.
+/// The only way to stop VTK's computation of gradients: a progress event on the thread that started it.
 void leave_if_cancelled(vtkObject* /*mapper*/, unsigned long /*event*/, void* keep_going, void* /*part*/) {
   if (!(*static_cast<const std::function<bool()>*>(keep_going))()) throw Cancelled();
 }

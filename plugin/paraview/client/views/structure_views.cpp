@@ -22,8 +22,7 @@
 namespace palpate::plugin {
 namespace {
 
-/// Of a slice the part in which a structure can be, and what lies within a margin of it; without a size where it
-/// cannot.
+/// The part of a slice in which a structure and its margins can be; of zero size if there is none.
 Sheet sheet_of(const SliceView& slice, const DrawnStructure& structure, double margin_mm) {
   const glm::dvec3 middle = slice.place_at({0, 0});
   const glm::dvec3 right = glm::normalize(slice.place_at({1, 0}) - middle);

@@ -52,7 +52,7 @@ bool VolumePick::handle(unsigned long event) {
   }
 }
 
-/// Of what is under the pointer: 0 is nearest to the eye, 1 farthest.
+/// `depth` along the ray under the pointer: 0 is nearest to the eye, 1 farthest.
 glm::dvec3 VolumePick::place_at(double depth) const {
   const int* const at = interactor_->GetEventPosition();
   vtkRenderer& renderer = *view_.GetRenderer();

@@ -32,7 +32,7 @@ QString identity_text(const io::Series& series) {
   const QDate date = QDate::fromString(utf8(series.identity.study_date), QStringLiteral("yyyyMMdd"));
   lines << (date.isValid() ? date.toString(Qt::ISODate) : utf8(series.identity.study_date));
   lines.removeAll(QString());
-  // As much as stands beside the letter in the middle of the view's upper edge.
+  // The number of letters that fit beside the letter in the middle of the view's upper edge.
   constexpr int most = 24;
   for (QString& line : lines) {
     if (line.size() > most) line = line.left(most - 1) + QChar(0x2026);

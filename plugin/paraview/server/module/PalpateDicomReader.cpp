@@ -112,7 +112,7 @@ void PalpateDicomReader::SetFileName(const char* name) {
 void PalpateDicomReader::SetSeriesUid(const char* uid) {
   if (series_uid_ == (uid ? uid : "")) return;
   series_uid_ = uid ? uid : "";
-  // ParaView fills an empty choice in from the list of series: with what is shown already.
+  // ParaView replaces an empty choice by the first of the list: by the series that is already shown.
   if (scan_ && plugin::scan_name(*scan_->catalogue, scan_->chosen) == series_uid_) return;
   scan_.reset();
   Modified();
@@ -238,7 +238,7 @@ int PalpateDicomReader::CanReadFile(const char* name) {
 
 void PalpateDicomReader::tell(const std::string& message) {
   messages_->InsertNextValue(message);
-  // Where the panel loaded the scan, it has told so itself, and a window of messages would cover the slices.
+  // A scan loaded by the panel was reported there, and ParaView's window of messages would cover the slices.
   if (!show_messages_ || (scan_ && scan_->loaded_elsewhere)) return;
   // Not vtkWarningMacro: it wraps a sentence for a radiologist in source lines and addresses.
   vtkOutputWindow::GetInstance()->DisplayWarningText(("Palpate: " + message + "\n").c_str());

@@ -90,7 +90,7 @@ int PalpateFields::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
 
 namespace {
 
-/// What of the image is asked for: a rank's own part, or the extent.
+/// The requested part of the image: a rank's own part, or the extent.
 std::array<int, 6> own_part(vtkImageData& image, vtkInformation& asked) {
   if (plugin::pieces_of(asked) > 1) return plugin::own_extent(image, plugin::ghosts_of(asked));
   std::array<int, 6> there{};
@@ -135,7 +135,7 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
     vtkErrorMacro(<< error.what());
     return 0;
   }
-  // What is looked at first is what was asked for last.
+  // The array made last is the active one.
   if (make_felt_ || make_magnitude_) {
     result.GetPointData()->SetActiveScalars(make_felt_ ? plugin::felt_name : plugin::magnitude_name);
   }

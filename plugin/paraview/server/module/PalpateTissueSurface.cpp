@@ -54,7 +54,7 @@ int PalpateTissueSurface::RequestUpdateExtent(vtkInformation* request, vtkInform
 
 namespace {
 
-/// Removes what lies in other cells than those of `extent`: what a neighboring rank has as well.
+/// Removes the surface in cells outside `extent`, which a neighboring rank has as well.
 void keep_within(const std::array<int, 6>& extent, vtkImageData& image, vtkPolyData& surface) {
   surface.BuildCells();
   vtkNew<vtkIdList> corners;

@@ -51,8 +51,8 @@ void take_slice(vtkImageData& image, int i, vtkImageData& slice) {
   slice.GetPointData()->CopyData(image.GetPointData(), places);
 }
 
-/// The same points and values as those of `slice`, whose first axis is one point long: with that axis as the last, so
-/// that a row is longer than a value.
+/// The same points and values as `slice`, whose first axis is one point long; here that axis is the last, so that rows
+/// are longer than one value.
 vtkSmartPointer<vtkImageData> with_long_rows(vtkImageData& slice) {
   const int* const extent = slice.GetExtent();
   const double* const spacing = slice.GetSpacing();
@@ -68,7 +68,7 @@ vtkSmartPointer<vtkImageData> with_long_rows(vtkImageData& slice) {
   return turned;
 }
 
-/// To ParaView this is the class that it is made of: it has no name of its own.
+/// To ParaView this is its base class: it has no name of its own.
 class QuickSlices : public vtkImageSliceRepresentation {
  public:
   static vtkObjectBase* make(void*) {
@@ -135,7 +135,7 @@ void quicken_slices() {
   }();
   auto* const process = vtkProcessModule::GetProcessModule();  // null if a program uses the reader alone
   auto* const session = process ? vtkPVSessionBase::SafeDownCast(process->GetSession()) : nullptr;
-  // A server's definitions are its clients' too, of which some do not know the name.
+  // A server sends its definitions to its clients, and some do not know the name.
   constexpr auto alone = vtkPVSession::CLIENT | vtkPVSession::SERVERS;
   if (!session || (session->GetProcessRoles() & alone) != alone) return;
   vtkSIProxyDefinitionManager* const definitions = session->GetProxyDefinitionManager();

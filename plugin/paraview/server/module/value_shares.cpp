@@ -28,7 +28,7 @@ void gather(const io::Volume& volume, int k, std::int64_t stride, std::vector<fl
 
 std::vector<double> value_shares(const io::Series& series) {
   const auto whole = held_scan(series, 0);
-  // What is joined from several series has no slices of its own to be read.
+  // A series joined from several ones has no slices of its own to read.
   const auto volume = whole || series.frames_per_position == 1 ? whole : load_scan(series, 0);
   const glm::ivec3& size = volume ? volume->geometry.dimensions : series.geometry.dimensions;
   const int slices = std::min(size.z, most_slices);

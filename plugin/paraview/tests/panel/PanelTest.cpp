@@ -36,7 +36,7 @@ void PanelTest::on_startup() {
   // Not before the panel is there: ParaView handles events while it starts, and must not be held up in one of them.
   auto* const waiting = new QTimer(this);
   connect(waiting, &QTimer::timeout, this, [waiting, name] {
-    // What is compared with the panel runs without it.
+    // Programs for comparison run without the panel.
     const bool without = name.starts_with("without_");
     QWidget* const shown = widget(without ? "pqClientMainWindow" : "PalpatePanel");
     if (!shown || !shown->isVisible() || (!without && is_opening())) return;

@@ -44,8 +44,8 @@ QWidget& main_window() {
   return *pqCoreUtilities::mainWidget();
 }
 
-/// The views are windows of their own: they get what the display's own pointer does. Events are handled meanwhile: on a
-/// busy machine the program would else seem dead to the servo, which takes the force away.
+/// The views are native windows, so they need the display's own pointer. Events are handled meanwhile: otherwise, on a
+/// busy machine, the program would seem dead to the servo, which would remove the force.
 void xdotool(const QStringList& arguments) {
   QProcess process;
   process.start(QStringLiteral("xdotool"), arguments);
@@ -245,7 +245,7 @@ void point_with_shift(const char* name, double x, double y) {
 void move_pointer(const QWidget& in, const QPoint& at) {
   const QPoint place = in.mapToGlobal(at);
   xdotool({QStringLiteral("mousemove"), QString::number(place.x()), QString::number(place.y())});
-  // Once the display has it there, what it tells of the way comes with the next events.
+  // When the display has moved the pointer, the events of its path arrive next.
   const QRect screen = QGuiApplication::primaryScreen()->geometry();
   if (screen.contains(place)) {
     wait_for(

@@ -87,7 +87,7 @@ double steady_number(const char* name) {
 
 namespace {
 
-/// What is seen of it on the screen.
+/// The picture of a view on the screen.
 QImage picture_of(QWidget& view) {
   QWidget& window = *pqCoreUtilities::mainWidget();
   const QPoint at = view.mapTo(&window, QPoint(0, 0));
