@@ -16,7 +16,7 @@
 
 namespace palpate::io {
 
-struct SeriesSource;  ///< where each slice of a series is on disk; used by load() alone
+struct SeriesSource;  ///< the place of each slice on disk; only for load()
 
 /// Images that share a series UID, an orientation and a size. All text is UTF-8.
 struct Series {
@@ -24,8 +24,8 @@ struct Series {
   std::string study_uid;    ///< StudyInstanceUID
   std::string modality;     ///< Modality: "CT", "MR", ...
   std::string description;  ///< SeriesDescription
-  /// If several volumes share this UID and overlap: what tells this one from the others, such as
-  /// "acquisition 2". Else empty.
+  /// The label that distinguishes it if several overlapping volumes share this UID, such as "acquisition 2". Otherwise
+  /// empty.
   std::string part;
   std::string unit;  ///< of the rescaled values: "HU", or empty if the modality has none
 
@@ -38,7 +38,7 @@ struct Series {
     std::string kernel;            ///< ConvolutionKernel
     std::string sequence;          ///< SequenceName, else ScanningSequence
     std::string contrast;          ///< ContrastBolusAgent
-    std::string orientation;       ///< "axial", "coronal", "sagittal", "oblique"; empty where it has no place
+    std::string orientation;       ///< "axial", "coronal", "sagittal", "oblique"; empty without a position
     double thickness_mm = 0;       ///< SliceThickness; 0 if unknown
     bool is_derived = false;       ///< ImageType DERIVED: computed from other images
     bool is_projection = false;    ///< a maximum or minimum of several slices
@@ -49,13 +49,12 @@ struct Series {
   std::vector<std::filesystem::path> files;    ///< in the order of the slices that they hold
   std::vector<std::string> transfer_syntaxes;  ///< UIDs, sorted, each once
   Geometry geometry;                           ///< of its first frame
-  /// How many images lie at a position (time, b-value, echo, phase): each is a frame, a volume of its own.
+  /// The number of images at one position (time, b-value, echo, phase): each is a frame, a volume of its own.
   int frames_per_position = 1;
-  std::vector<std::string>
-      frame_names;  ///< what each frame is, such as "b = 1000 s/mm2"; one a frame, empty if unknown
+  std::vector<std::string> frame_names;  ///< such as "b = 1000 s/mm2"; one for each frame, empty if unknown
 
-  /// The window that the file asks for: rescaled values below level - width / 2 are black, above level + width / 2
-  /// white (WindowCenter and WindowWidth, the first of several, of the middle slice of the first frame).
+  /// The file's own window: rescaled values below level - width / 2 are black, above level + width / 2 white
+  /// (WindowCenter and WindowWidth, the first of several, of the middle slice of the first frame).
   struct Window {
     double level = 0;
     double width = 1;
@@ -67,8 +66,8 @@ struct Series {
   bool usable = false;
   std::vector<Text> warnings;  ///< what a user should know: missing slices, files left out, why it is not usable
 
-  /// Who was scanned and when. Shown on the screen, on request, so that the right scan can be verified. Never written
-  /// to a log, recording, picture or report.
+  /// The patient and the date. Shown on the screen, on request, to verify the scan. Never written to a log, recording,
+  /// picture or report.
   struct Identity {
     std::string patient_name;
     std::string patient_id;
@@ -94,8 +93,8 @@ struct Catalogue {
 
 /// The series in these files and folders. Folders are searched to the bottom; names and extensions do not matter. A
 /// DICOMDIR among the paths stands for its folder; its own records are not used. A damaged file is left out; the others
-/// are read. Throws
-/// DicomError if a path does not exist or cannot be listed, or DICOM's data dictionary is missing; Cancelled.
+/// are read. Throws DicomError if a path does not exist or cannot be listed, or if DICOM's data dictionary is missing;
+/// Cancelled.
 Catalogue find_series(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
 }  // namespace palpate::io

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Points of a surface that a signed distance gives.
+/// Points on the surface of a signed distance.
 
 #include <vector>
 
@@ -13,20 +13,19 @@ struct SurfacePoint {
   double area_mm2 = 0;  ///< of the surface around it: the sum of all is the surface's area
 };
 
-/// Where the edges of a lattice along the patient's axes cross the surface. Along each axis a crossing stands for
-/// spacing^2 / (|nx| + |ny| + |nz|) of the surface, n its normal (Cauchy and Crofton: n's parts are how many of the
-/// edges cross a unit of it). The box grows until no part of the surface leaves it. `distance` need not be a distance
-/// far from the surface, but has to grow there by at least 0.8 and at most 1.25 mm a mm within two lattice blocks of
-/// it, and to be larger beyond.
+/// The crossings of the surface with the edges of a lattice along the patient's axes. A crossing represents an area of
+/// spacing^2 / (|nx| + |ny| + |nz|), where n is its normal (Cauchy and Crofton: the components of n are the numbers of
+/// edges that cross a unit of area). The box grows until it contains the whole surface. `distance` may be inexact, but
+/// within two lattice blocks of the surface it must grow by 0.8 to 1.25 mm per mm, and be larger beyond.
 std::vector<SurfacePoint> surface_points(const SignedDistance& distance, const StructureBox& box, double spacing_mm);
 
-/// The same within a box that does not grow; a little around it may be looked at, too.
+/// The same within a box that does not grow. A little around the box may be read, too.
 std::vector<SurfacePoint> surface_points_in(const SignedDistance& distance, const StructureBox& box, double spacing_mm);
 
-/// The box with all of the surface.
+/// The box around the whole surface.
 StructureBox box_around(const SignedDistance& distance, StructureBox box);
 
-/// How much of space is inside one, the other and both, by a lattice whose voxels count by parts.
+/// The volume inside one, the other and both, on a lattice with fractions of voxels.
 struct SharedVolume {
   double first_mm3 = 0, second_mm3 = 0, both_mm3 = 0;
 };

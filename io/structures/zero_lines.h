@@ -9,9 +9,9 @@
 
 namespace palpate::io {
 
-/// Closed lines, in nodes, between the values above 0 and the others: linear along the lattice's edges. What is above 0
-/// lies to the left of a line (where j grows upwards): lines around it run counterclockwise, lines around holes
-/// clockwise. They do not cross. `values`: nodes.x * nodes.y of them, i fastest; those at the ends may not be above 0.
+/// Closed lines, in nodes, between the values above 0 and the others: linear along the lattice's edges. Values above 0
+/// are to the left of a line (if j points up), so outer lines run counterclockwise and lines around holes clockwise.
+/// They do not cross. `values`: nodes.x * nodes.y of them, i fastest; those at the border must not be above 0.
 std::vector<ContourPolygon> zero_lines(std::span<const double> values, const glm::ivec2& nodes);
 
 /// The lines with fewer points. Kept points are not moved, and the points that are left out lie within 0.01 mm of the

@@ -15,7 +15,7 @@
 namespace palpate::plugin {
 
 struct Saving {
-  std::string what, why;     ///< as modes::LeftOut says
+  std::string what, why;     ///< as in modes::LeftOut
   std::string saves;         ///< in words
   std::optional<double> us;  ///< of a sub-step; empty if it cannot be measured
   std::optional<double> ms;  ///< once, for computing ahead

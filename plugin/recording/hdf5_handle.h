@@ -1,6 +1,6 @@
 #pragma once
 
-/// HDF5's C interface, with identifiers that close themselves and with failures that throw.
+/// HDF5's C interface, with identifiers that are closed automatically and errors as exceptions.
 
 #include <hdf5.h>
 
@@ -11,7 +11,7 @@
 
 namespace palpate::plugin::hdf5 {
 
-/// The id of the message that says what could not be done.
+/// The id of the message about a failed step.
 using Step = ChosenMessage<0, messages::sessions>;
 
 class Handle {

@@ -17,11 +17,11 @@ namespace palpate::plugin {
 /// The marks, distances and paths for a report. Angles are left out: TID 1500 has no length for them.
 io::MeasurementReport report_of(const Marks& marks);
 
-/// What the report says, a line for each mark, distance and path. `unit`: of the scan.
+/// The content of the report, a line for each mark, distance and path. `unit`: of the scan.
 std::string report_in_words(const io::MeasurementReport& report, const std::string& unit);
 
 /// Writes the report, and a picture of each mark, into an existing folder. Returns the files, the report first. Throws
-/// what io::write_measurement_report() throws.
+/// as io::write_measurement_report() does.
 std::vector<std::filesystem::path> write_results(const io::Series& series,
                                                  const std::shared_ptr<const io::Volume>& volume, const Marks& marks,
                                                  const std::filesystem::path& folder);

@@ -39,10 +39,10 @@ std::shared_ptr<const io::Volume> load_part(const io::Series& series, const std:
 std::shared_ptr<const io::Volume> load_slices(const io::Series& series, int first, int count);
 std::shared_ptr<const io::Volume> load_slice(const io::Series& series, int slice);
 
-/// The whole frame if somebody holds it; none otherwise, and none while it is being loaded.
+/// The whole frame if it is in use; none otherwise, and none while it is being loaded.
 std::shared_ptr<const io::Volume> held_scan(const io::Series& series, int frame);
 
-/// What is held in this process at the moment.
+/// The present contents of this process's store.
 struct StoreUse {
   std::size_t volumes = 0;
   std::size_t voxel_bytes = 0;

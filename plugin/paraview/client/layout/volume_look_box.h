@@ -18,11 +18,11 @@ class VolumeLookBox : public QComboBox {
  public:
   explicit VolumeLookBox(QWidget* parent = nullptr);
 
-  /// Of another scan; `chosen` none: it is shown as somebody else has set it.
+  /// The choices for another scan. `chosen` none: the volume has a different appearance, set elsewhere.
   void set_looks(const std::vector<VolumeLook>& looks, std::optional<std::size_t> chosen);
   /// Whether the volume shows the scene's boundaries, whatever they become.
   bool is_felt() const;
-  /// Selects this for a restored state; emits nothing.
+  /// Selects the felt boundaries for a restored state; emits nothing.
   void choose_felt() { setCurrentIndex(static_cast<int>(looks_.size())); }
 
  signals:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Owns which scan is open: what is in the views, what comes next, and the frame that is shown. ParaView's time says
-/// which frame is wanted. Sections and views follow this model.
+/// Owns the state of the open scan: the contents of the views, the next scan, and the frame. ParaView's time selects
+/// the frame. Sections and views follow this model.
 
 #include <QObject>
 #include <QString>

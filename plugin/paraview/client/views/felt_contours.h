@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where the boundaries of a scene are met on a slice of the scan: as lines.
+/// The boundaries of a scene on a slice of the scan, as lines.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -19,15 +19,15 @@ struct SlicePoints {
   int columns = 0, rows = 0;
 };
 
-/// Of one of the scene's modes.
+/// The line of one of the scene's modes.
 struct FeltContour {
   std::size_t mode = 0;
   std::vector<std::array<glm::dvec3, 2>> pieces;  ///< ends, patient space, mm
 };
 
 /// The lines of every surface of the plan that has a gate over value. A piece is left out if the surface has no
-/// strength there, because the gradient is too small or the tissues are others. If the strength depends on fields that
-/// the source does not have, it is taken to be there. On any thread; takes about a tenth of a second.
+/// strength there, because the gradient is too small or the tissues differ. If the strength depends on fields that the
+/// source does not have, the piece is kept. On any thread; takes about a tenth of a second.
 std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
                                        const io::FieldSource& source, const SlicePoints& points);
 

@@ -18,14 +18,14 @@ namespace palpate::plugin {
 /// std::invalid_argument for an image without one.
 std::shared_ptr<const io::Volume> scan_of(vtkImageData& image);
 
-/// Whether the image's points are voxels of the volume, and which is the first of them.
+/// Whether the image's points are voxels of the volume, and the first of them.
 struct VoxelBlock {
   bool aligned = false;
   std::array<int, 3> first{};
 };
 VoxelBlock block_of(vtkImageData& image, const io::Volume& volume);
 
-/// A scene given as JSON, as the name of a starting scene or as a file; without modes where it is empty. Throws
+/// A scene given as JSON, as the name of a starting scene or as a file; without modes if the text is empty. Throws
 /// std::invalid_argument as modes::scene_from_json() and modes::load_scene() do.
 modes::Scene scene_of(const std::string& text);
 /// The same. Empty: the starting scene that suits the modality.
