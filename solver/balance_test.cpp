@@ -113,6 +113,14 @@ TEST(Balance, WhatIsNotReadMayBeAnything) {
   EXPECT_FALSE(check({PrimitiveType::point, 1, {0, 0, 0}, {0, nan, 0}}));
 }
 
+/// A stiffness that nobody has set is refused, and named.
+TEST(Balance, HasNoStiffnessByItself) {
+  const auto rejection = validate(Balance{});
+  ASSERT_TRUE(rejection);
+  EXPECT_EQ(rejection->field, Field::stiffness);
+  EXPECT_EQ(rejection->flaw, Flaw::not_positive);
+}
+
 TEST(Balance, StiffnessAndProbeHaveToBeUsable) {
   EXPECT_EQ(validate({0, o, o, {}})->flaw, Flaw::not_positive);
   EXPECT_EQ(validate({-400, o, o, {}})->flaw, Flaw::not_positive);

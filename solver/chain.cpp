@@ -88,8 +88,6 @@ Solution Chain::solve(const Balance& balance, std::span<Vec3> forces) noexcept {
   const Solution solution = solve_in_order(balance, forces);
   if (solution.outcome == Outcome::solved || solution.outcome == Outcome::capped) {
     remember(balance, solution, forces);
-  } else {
-    forget();
   }
   return solution;
 }

@@ -238,7 +238,7 @@ std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structu
   for (const modes::SceneStructure& named : scene.structures) {
     if (!is_same(named, structure)) continue;
     for (const modes::Mode& mode : scene.modes) {
-      if (mode.type != "landmark" || mode.name != name_of_side(named.name, true)) continue;
+      if (!modes::reads_key(mode, modes::Key::landmark) || mode.name != name_of_side(named.name, true)) continue;
       return HeldPlane{.point_mm = mode.position_mm, .normal = mode.direction};
     }
   }

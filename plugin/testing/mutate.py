@@ -54,6 +54,11 @@ OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "archive_tests", "pl
 NEEDS_PARAVIEW = {"paraview_model_tests"}
 
 
+def code_of(line):
+    """A line without its comment, which may be worded anew."""
+    return re.sub(r"\s*//.*$", "", line).strip()
+
+
 class Mutant:
     def __init__(self, module, path, number, before, slip):
         self.module = module  # whose sample it is of
@@ -64,7 +69,7 @@ class Mutant:
         self.no_code = False  # it does not compile
 
     def key(self):
-        return (self.path, self.before.strip(), self.after.strip())
+        return (self.path, code_of(self.before), code_of(self.after))
 
     def title(self):
         return f"{self.module}: {self.path}:{self.number}: {self.name}"
@@ -118,7 +123,7 @@ def git(*arguments):
 def survivors_told(file):
     """The keys of the slips that survived in a run whose output is in a file. The line numbers there are of no account."""
     told = re.findall(r"^(?:survived|not run|unsteady): (?:[^:\n]+: )?([^:\n]+):\d+: .*\n    - (.*)\n    \+ ?(.*)$", pathlib.Path(file).read_text(), flags=re.M)
-    return {(path, before.strip(), after.strip()) for path, before, after in told}
+    return {(path, code_of(before), code_of(after)) for path, before, after in told}
 
 
 def others_told(file):
@@ -168,7 +173,7 @@ def equivalents():
         for line in EQUIVALENT.read_text().splitlines():
             parts = [part.strip() for part in line.split(" | ")]
             if len(parts) == 4 and not line.startswith("#"):
-                keys.add(tuple(parts[:3]))
+                keys.add((parts[0], code_of(parts[1]), code_of(parts[2])))
     return keys
 
 

@@ -204,6 +204,32 @@ TEST(Columns, WhatIsFarEnoughIsLookedAtSideBySide) {
   EXPECT_LT(near, all / 2);
 }
 
+/// Lengths in another unit, a power of two times as large, leave the same primitives near: also where rounding alone
+/// decides.
+TEST(Columns, WhatIsNearDoesNotDependOnTheUnit) {
+  Random random(11);
+  std::size_t near = 0, all = 0;
+  for (int n = 0; n < 100; ++n) {
+    const Vec3 z = random.normal_vector(1);
+    std::vector<Placed> placed;
+    for (int i = 0; i < 24; ++i) {
+      const Vec3 q = random.unit_vector(), apart = random.normal_vector(1);
+      const double depth = 0x1p-30 * glm::length(z) * random.uniform(-8, 8);
+      placed.push_back(placed_at(PrimitiveType::plane, z + apart - q * (glm::dot(apart, q) - depth), q));
+    }
+    const Far far(placed, fine(z), 0, 0);
+    for (const double unit : {0x1p-20, 0x1p-3, 0x1p20}) {
+      std::vector<Placed> scaled = placed;
+      for (Placed& one : scaled) one.offset = fine(one.offset.hi() * unit);
+      EXPECT_EQ(Far(scaled, fine(z * unit), 0, 0).near, far.near) << unit;
+    }
+    near += far.near.size();
+    all += placed.size();
+  }
+  EXPECT_GT(near, all / 20);
+  EXPECT_LT(near, all * 19 / 20);
+}
+
 /// Whose square is no number that a double holds well is left to those that scale.
 TEST(Columns, TheLargestAndTheSmallestAreNotLookedAtSideBySide) {
   for (const double away : {1e-145, 1e-120, 1e120, 1e145}) {

@@ -32,7 +32,6 @@ bool lock_best(const Holding& holding, ActiveSet& active) {
   const int count = active.count;
   const int rank = active.rank;
   std::uint32_t best = 0;
-  std::uint32_t tried = 0;  // a plane, while it is locked
   double best_size = 0;
   for (std::uint32_t i = 0; i < holding.count; ++i) {
     const PrimitiveType type = holding.placed[i].type;
@@ -42,7 +41,6 @@ bool lock_best(const Holding& holding, ActiveSet& active) {
       active.rank = rank;
       if (!active.has(i) && lock(active, holding.all(), i)) {
         size = std::abs(active.size[count]);
-        tried = i;
       }
     } else if (type == PrimitiveType::point && count == 0) {
       active.rank = rank;
@@ -55,9 +53,6 @@ bool lock_best(const Holding& holding, ActiveSet& active) {
       best_size = size;
       best = i;
     }
-  }
-  if (best_size > 0 && active.count > count && tried == best) {
-    return true;
   }
   active.count = count;
   active.rank = rank;

@@ -11,12 +11,11 @@ namespace palpate {
 
 namespace internal {
 
-/// The length in bytes of the text's first character; 0 if the text does not begin with a UTF-8 character (RFC 3629,
-/// 4).
+/// The length in bytes of the first character of a text that is not empty; 0 if it is not UTF-8 (RFC 3629, 4).
 inline std::size_t utf8_character(std::string_view text) {
   const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
   const unsigned first = byte(0);
-  if (first < 0x80) return text.empty() ? 0 : 1;
+  if (first < 0x80) return 1;
   const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
   // After some first bytes the second has a smaller range: the rest would be overlong forms, surrogates, or beyond
   // U+10FFFF.

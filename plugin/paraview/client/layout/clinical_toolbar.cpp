@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "plugin/paraview/client/scan/recent_folders.h"
-#include "plugin/paraview/client/widgets/kept_width.h"
 #include "plugin/paraview/client/widgets/release_button.h"
 
 namespace palpate::plugin {
@@ -143,17 +142,16 @@ void ClinicalToolbar::add_measures() {
   }
 }
 
-/// Connect and Release.
+/// Release and Connect: Release comes first, so that it stays in its place when the words of the other change.
 void ClinicalToolbar::add_connection() {
-  connect_ = add("palpateToolbarConnect", tr("Connect stylus"), {});
-  keep_width(*qobject_cast<QToolButton*>(widgetForAction(connect_)), {tr("Connect stylus"), tr("Disconnect stylus")});
-  connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
   release_ = make_release_button(*this, "palpateToolbarRelease", tr("Release  (Esc)"));
   release_->setToolTip(tr("Takes the force away"));
   release_->setMinimumSize(130, 32);
   release_->setFocusPolicy(Qt::NoFocus);  // the arrow keys are the views'
   connect(release_, &QPushButton::clicked, this, &ClinicalToolbar::release_wanted);
   addWidget(release_);
+  connect_ = add("palpateToolbarConnect", tr("Connect stylus"), {});
+  connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
 }
 
 /// What else can be done with the volume, behind its name.
