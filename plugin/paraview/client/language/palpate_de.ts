@@ -201,16 +201,16 @@
         <translation>Vier Ansichten</translation>
     </message>
     <message>
-        <source>Axial, sagittal, coronal and volume beside each other</source>
-        <translation>Axial, sagittal, koronal und Volumen nebeneinander</translation>
+        <source>Four-up: axial, sagittal, coronal and volume beside each other</source>
+        <translation>Vier Ansichten: axial, sagittal, koronal und Volumen nebeneinander</translation>
     </message>
     <message>
         <source>One-up</source>
         <translation>Eine Ansicht</translation>
     </message>
     <message>
-        <source>The marked view alone. A double click in a view does the same.</source>
-        <translation>Nur die markierte Ansicht. Ein Doppelklick in eine Ansicht tut dasselbe.</translation>
+        <source>One-up: the marked view alone. A double click in a view does the same.</source>
+        <translation>Eine Ansicht: nur die markierte Ansicht. Ein Doppelklick in eine Ansicht tut dasselbe.</translation>
     </message>
     <message>
         <source>Ruler</source>

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "plugin/paraview/client/scan/recent_folders.h"
+#include "plugin/paraview/client/widgets/kept_width.h"
 #include "plugin/paraview/client/widgets/release_button.h"
 
 namespace palpate::plugin {
@@ -114,13 +115,15 @@ void ClinicalToolbar::add_open() {
 
 /// Four views or one.
 void ClinicalToolbar::add_layouts() {
-  four_ = add("palpateFourUp", tr("Four-up"), tr("Axial, sagittal, coronal and volume beside each other"));
-  one_ = add("palpateOneUp", tr("One-up"), tr("The marked view alone. A double click in a view does the same."));
+  four_ = add("palpateFourUp", tr("Four-up"), tr("Four-up: axial, sagittal, coronal and volume beside each other"));
+  one_ =
+      add("palpateOneUp", tr("One-up"), tr("One-up: the marked view alone. A double click in a view does the same."));
   four_->setIcon(layout_icon(palette(), 2));
   one_->setIcon(layout_icon(palette(), 1));
   auto* const group = new QActionGroup(this);
   for (QAction* const layout : {four_, one_}) {
     layout->setCheckable(true);
+    qobject_cast<QToolButton*>(widgetForAction(layout))->setToolButtonStyle(Qt::ToolButtonIconOnly);
     group->addAction(layout);
   }
   four_->setChecked(true);
@@ -142,16 +145,17 @@ void ClinicalToolbar::add_measures() {
   }
 }
 
-/// Release and Connect: Release comes first, so that it stays in its place when the words of the other change.
+/// Connect and Release.
 void ClinicalToolbar::add_connection() {
+  connect_ = add("palpateToolbarConnect", tr("Connect stylus"), {});
+  keep_width(*qobject_cast<QToolButton*>(widgetForAction(connect_)), {tr("Connect stylus"), tr("Disconnect stylus")});
+  connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
   release_ = make_release_button(*this, "palpateToolbarRelease", tr("Release  (Esc)"));
   release_->setToolTip(tr("Takes the force away"));
   release_->setMinimumSize(130, 32);
   release_->setFocusPolicy(Qt::NoFocus);  // the arrow keys are the views'
   connect(release_, &QPushButton::clicked, this, &ClinicalToolbar::release_wanted);
   addWidget(release_);
-  connect_ = add("palpateToolbarConnect", tr("Connect stylus"), {});
-  connect(connect_, &QAction::triggered, this, &ClinicalToolbar::connect_wanted);
 }
 
 /// What else can be done with the volume, behind its name.
