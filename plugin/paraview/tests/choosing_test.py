@@ -5,12 +5,9 @@ Arguments as in panel_program.py.
 
 import os
 import shutil
-import subprocess
 
 from mixed_folder import as_mr, mixed_folder, set_headers, two_of_a_patient
-from panel_program import PROGRAMS, main, phantom, run, scratch
-
-HEAD = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
+from panel_program import HEAD, main, phantom, real_head, run
 
 
 def chosen():
@@ -51,12 +48,7 @@ def chest():
 
 def head():
     """A real one where it is installed, else bone around soft tissue."""
-    if not os.path.exists(HEAD):
-        return set_headers(phantom("head", "shell", "--radius", "28"), BodyPartExamined="HEAD")
-    folder = scratch("panel-head")
-    shutil.rmtree(folder, ignore_errors=True)
-    subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "invesalius", "-o", folder], check=True)
-    return folder
+    return real_head() if os.path.exists(HEAD) else set_headers(phantom("head", "shell", "--radius", "28"), BodyPartExamined="HEAD")
 
 
 def brain():

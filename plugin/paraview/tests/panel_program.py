@@ -32,6 +32,16 @@ def phantom(name, *arguments):
     return folder
 
 
+HEAD = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"  # a real CT, where it is installed
+
+
+def real_head():
+    folder = scratch("panel-head")
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "invesalius", "-o", folder], check=True)
+    return folder
+
+
 def ball():
     return phantom("ball", "sphere", "--radius", "25")
 

@@ -10,7 +10,7 @@ import subprocess
 
 from made_segmentation import is_in_cut_ball, voxels, write_segmentation
 from mixed_folder import mixed_folder, set_headers
-from panel_program import PROGRAMS, SCRATCH, ball, main, phantom, run, scratch
+from panel_program import HEAD, PROGRAMS, SCRATCH, ball, main, phantom, real_head, run, scratch
 from voxel_ball import write_nifti, write_nrrd
 
 
@@ -94,16 +94,6 @@ def chest():
     folder = phantom("chest", "sphere", "--radius", "25")
     for file in os.listdir(folder):
         subprocess.run(["dcmodify", "-nb", "-i", "0018,0015=CHEST", os.path.join(folder, file)], check=True)
-    return folder
-
-
-HEAD = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
-
-
-def head():
-    folder = scratch("panel-head")
-    shutil.rmtree(folder, ignore_errors=True)
-    subprocess.run([os.path.join(PROGRAMS, "palpate-testdata"), "invesalius", "-o", folder], check=True)
     return folder
 
 
@@ -350,7 +340,7 @@ def german():
 
 def not_cut_off():
     """English words, and German ones, which are longer; a real head has many boundaries, and long names, where it is installed."""
-    folders = {"C.UTF-8": head() if os.path.exists(HEAD) else chest(), "de_DE.UTF-8": chest()}
+    folders = {"C.UTF-8": real_head() if os.path.exists(HEAD) else chest(), "de_DE.UTF-8": chest()}
     return all([run("no_text_is_cut_off", folder, LC_ALL=language, LANGUAGE="") for language, folder in folders.items()])
 
 

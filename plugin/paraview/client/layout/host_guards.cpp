@@ -20,7 +20,8 @@
 namespace palpate::plugin {
 namespace {
 
-// Since 5.12 ParaView also finds states in the pictures that it saves. Whether this one holds a state it asks afterwards.
+// Since 5.12 ParaView also finds states in the pictures that it saves. Whether this one holds a state it asks
+// afterwards.
 bool names_state(const QString& file) {
   return file.contains(QLatin1String(".pvsm"), Qt::CaseInsensitive) ||
          file.contains(QLatin1String(".png"), Qt::CaseInsensitive);
