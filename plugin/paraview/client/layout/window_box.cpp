@@ -22,7 +22,6 @@ WindowBox::WindowBox(ScanModel& model, ClinicalViews& views, QWidget* parent)
   setObjectName(QStringLiteral("palpateWindow"));
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setMinimumContentsLength(14);
-  setToolTip(of_section("Keys 1 to 9. Also: drag in a slice, to the right for a wider window, up for a brighter one."));
   connect(this, QOverload<int>::of(&QComboBox::activated), this, [this](int choice) {
     const auto n = static_cast<std::size_t>(choice);
     if (choice >= 0 && n < views_.windows().size()) views_.set_window(views_.windows()[n].window);
@@ -53,8 +52,16 @@ void WindowBox::list() {
   show_window();
 }
 
-/// The slices' window; if it has no name, as an additional entry.
 void WindowBox::show_window() {
+  choose();
+  // The box is too narrow for some.
+  const QString keys =
+      of_section("Keys 1 to 9. Also: drag in a slice, to the right for a wider window, up for a brighter one.");
+  setToolTip(currentText().isEmpty() ? keys : currentText() + QLatin1Char('\n') + keys);
+}
+
+/// The slices' window; if it has no name, as an additional entry.
+void WindowBox::choose() {
   const int custom = static_cast<int>(listed_.size());
   const Window& now = views_.window();
   const auto same = std::ranges::find_if(

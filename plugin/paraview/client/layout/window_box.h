@@ -19,6 +19,7 @@ class WindowBox : public QComboBox {
   void follow();
   void list();
   void show_window();
+  void choose();
 
   ScanModel& model_;
   ClinicalViews& views_;

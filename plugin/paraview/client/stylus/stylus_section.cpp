@@ -217,10 +217,11 @@ void StylusSection::show_devices(const std::vector<device::FoundDevice>& found) 
     at = device_->count() - 1;
   }
   device_->setCurrentIndex(std::max(at, 0));
-  if (device_->currentData() != chosen) show_choice();
+  if (device_->currentData() != chosen || device_->toolTip() != device_->currentText()) show_choice();
 }
 
 void StylusSection::show_choice() {
+  device_->setToolTip(device_->currentText());  // the box is too narrow for some
   const QString kind = device_->currentData().toString().section(QLatin1Char('@'), 0, 0);
   const device::DeviceType* const type = device::find_device_type(kind.toStdString());
   file_->setVisible(type != nullptr && type->file != device::DeviceFile::none);
