@@ -717,8 +717,8 @@
         <translation> mm</translation>
     </message>
     <message>
-        <source> voxels</source>
-        <translation> Voxel</translation>
+        <source> pixels</source>
+        <translation> Pixel</translation>
     </message>
     <message>
         <source>filter</source>

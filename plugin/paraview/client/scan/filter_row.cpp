@@ -143,7 +143,7 @@ void FilterRow::offer_amount() {
     amount_->setDecimals(0);
     amount_->setSingleStep(2);
     amount_->setRange(3, 5);
-    amount_->setSuffix(tr(" voxels"));
+    amount_->setSuffix(tr(" pixels"));
     amount_->setToolTip(tr("Edge of the square in the slice"));
     amount_->setValue(3);
   } else if (type->reads_sigma_value) {
