@@ -124,7 +124,6 @@ void FeltStrength::sample_and_add_up(const glm::ivec3& first, std::span<const gl
     const int n = std::countr_zero(left);
     const auto at = static_cast<std::size_t>(n);
     io::Sample sample;
-    sample.inside = true;
     sample.value = row.values[at];
     sample.gradient = gradients[at];
     if ((between_tissues >> n & 1) != 0) {

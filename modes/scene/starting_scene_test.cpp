@@ -37,6 +37,18 @@ TEST(StartingScene, goes_by_the_description_where_the_part_says_nothing) {
 }
 
 /// The words of a description say the same in German and in English.
+TEST(StartingScene, goes_by_the_part_before_the_description) {
+  io::Volume volume;
+  volume.modality = "CT";
+  volume.body_part = "HEAD";
+  volume.description = "Chest 1.0";
+  EXPECT_EQ(part_of_body(volume), "HEAD");
+  EXPECT_TRUE(is_of_head(volume));
+  std::swap(volume.body_part, volume.description);
+  EXPECT_NE(part_of_body(volume), "HEAD");
+  EXPECT_FALSE(is_of_head(volume));
+}
+
 TEST(StartingScene, is_the_same_for_a_part_in_either_language) {
   const std::pair<const char*, std::vector<const char*>> parts[] = {
       {"ct-chest", {"Chest", "Lung", "Lunge", "Thorax", "thoracic"}},
