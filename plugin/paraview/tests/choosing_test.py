@@ -19,7 +19,7 @@ def first_start():
     def new(home):
         shutil.rmtree(os.path.join(home, ".config", "ParaView"))
 
-    return run("the_start_page_is_the_welcome", prepare=new)
+    return run("the_start_page_is_the_welcome", prepare=new, longest_s=90)  # behind its welcome ParaView would wait for ever
 
 
 def again():

@@ -1,6 +1,7 @@
 // Legibility: no control moves away under the pointer, no text is cut off, and nothing of ParaView's covers the panel.
 
 #include <pqCoreUtilities.h>
+#include <vtkOutputWindow.h>
 
 #include <QAbstractButton>
 #include <QAbstractItemModel>
@@ -199,6 +200,7 @@ void the_notice_is_legible() {
 /// A name for one thing: in ParaView's menus and ours.
 void a_menu_names_one_thing() {
   scan_is_shown();
+  int entries = 0;
   for (const QAction* const top : host_window().menuBar()->actions()) {
     if (!top->menu()) continue;
     std::set<QString> here;
@@ -206,8 +208,10 @@ void a_menu_names_one_thing() {
       QString words = one->text().remove('&').remove(QStringLiteral("...")).remove(QStringLiteral("…")).trimmed();
       if (words.isEmpty() || !one->isVisible()) continue;
       expect(here.insert(words).second, "a menu has one entry of that name: " + words.toStdString());
+      ++entries;
     }
   }
+  expect(entries > 30, "ParaView's menus are there");
 }
 
 /// How many lines ParaView's own messages have.
@@ -231,6 +235,8 @@ void a_missing_folder_is_told_in_the_panel() {
   wait_ms(1000);
   save_screen("missing-folder");
   expect(host_messages() == before, "ParaView says nothing");
+  vtkOutputWindowDisplayWarningText("the scenario's own warning\n");
+  expect(comes_true([before] { return host_messages() > before; }), "and this would be seen");
 }
 
 /// In a program that was not told to leave ParaView's welcome out.
@@ -238,7 +244,9 @@ void the_start_page_is_the_welcome() {
   int seen = 0;
   for (int n = 0; n < 30; ++n) {
     for (QWidget* const top : QApplication::topLevelWidgets()) {
-      seen += top->inherits("pqWelcomeDialog") && top->isVisible() ? 1 : 0;
+      if (!top->inherits("pqWelcomeDialog") || !top->isVisible()) continue;
+      ++seen;
+      top->close();  // the program would not end behind it
     }
     wait_ms(100);
   }
