@@ -191,7 +191,7 @@ function(palpate_tests name)
   palpate_test_code(${name}_tests)
   # Real series are never copied into the project.
   target_compile_definitions(${name}_tests PRIVATE PALPATE_SHARED_DATA="${PALPATE_SHARED_DATA}")
-  set(seconds 20)
+  set(seconds 60)
   if(ARG_SECONDS)
     set(seconds ${ARG_SECONDS})
   endif()

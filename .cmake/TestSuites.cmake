@@ -19,6 +19,12 @@ function(palpate_suite suite tests)
     set(name "shared.${name}")
     set(seconds 600) # whole series
   endif()
+  # More than half of all the time, by computing or waiting: `plugin/run check thorough` runs them, `plugin/run test` does not.
+  set(labels "")
+  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|CompareOutlines|CorrectedDistance|DoubtfulPlaces|EachDevice/FaultTable|Hostile|LiveSession|OpenIgtHostile|RandomFaults|Regions|ScanEdge|ScanEdgeLaws|ScanShapes|Soak|SuggestAffine)$")
+    set(labels thorough)
+    math(EXPR seconds "4 * ${seconds}")
+  endif()
   add_test("${name}" "${program}" "--gtest_filter=${suite}.*")
   # CTest's own limit is for a program that cannot end itself. What takes longest begins first, then what has more tests.
   math(EXPR longest "300 + 2 * ${seconds}")
@@ -26,11 +32,8 @@ function(palpate_suite suite tests)
   if(suite MATCHES "^(archive|CheckDevice|CommandSession|DistanceField|EachDevice/FaultTable|Hostile|LiveSession|ScanEdge|Soak|StudyStructures|Suggest.*)$")
     math(EXPR cost "1000 + ${tests}")
   endif()
-  set_tests_properties("${name}" PROPERTIES TIMEOUT ${longest} COST ${cost} ENVIRONMENT "PALPATE_TEST_SECONDS=${seconds}")
-  # More than half of all the time, by computing or waiting: `plugin/run check thorough` runs them, `plugin/run test` does not.
-  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|CompareOutlines|CorrectedDistance|DoubtfulPlaces|EachDevice/FaultTable|Hostile|LiveSession|OpenIgtHostile|RandomFaults|Regions|ScanEdge|ScanEdgeLaws|ScanShapes|Soak|SuggestAffine)$")
-    set_tests_properties("${name}" PROPERTIES LABELS thorough)
-  endif()
+  set_tests_properties("${name}" PROPERTIES TIMEOUT ${longest} COST ${cost} LABELS "${labels}"
+    ENVIRONMENT "PALPATE_TEST_SECONDS=${seconds}")
 endfunction()
 
 set(suite "")
