@@ -30,16 +30,16 @@ std::string vector_text(const Vec3& v) {
   return std::string(text.data(), at) + "}";
 }
 
-/// A quarter turn about the service's z; its second button is down.
-Json grip() {
+/// A quarter turn about the service's z. `buttons`: bit 0 is "a".
+Json grip(std::uint32_t buttons) {
   return {{"device_id", "61576"},
           {"state",
-           {{"buttons", {{"a", false}, {"b", true}, {"c", false}}},
+           {{"buttons", {{"a", (buttons & 1) != 0}, {"b", (buttons & 2) != 0}, {"c", (buttons & 4) != 0}}},
             {"orientation", {{"w", std::sqrt(0.5)}, {"x", 0.0}, {"y", 0.0}, {"z", std::sqrt(0.5)}}}}}};
 }
 
-Json grips(bool any) {
-  return any ? Json::array({grip()}) : Json::array();
+Json grips(bool any, std::uint32_t buttons) {
+  return any ? Json::array({grip(buttons)}) : Json::array();
 }
 
 }  // namespace
@@ -66,12 +66,16 @@ std::string FakeHaply::inventory() const {
                     {"state", {{"cursor_position", vector(place)}}},
                     {"status", {{"calibrated", calibrated}, {"ready", ready}}}});
   }
-  return Json{{"session_id", 7}, {"inverse3", list}, {"wireless_verse_grip", grips(has_grip)}}.dump();
+  return Json{{"session_id", 7}, {"inverse3", list}, {"wireless_verse_grip", grips(has_grip, buttons)}}.dump();
 }
 
 // Not through a tree of JSON: a session asks a thousand times a second.
 std::string FakeHaply::state(double now) const {
-  static const std::string with_grip = grips(true).dump();
+  static const std::array<std::string, 8> with_grip = [] {
+    std::array<std::string, 8> made;
+    for (std::uint32_t n = 0; n < made.size(); ++n) made[n] = grips(true, n).dump();
+    return made;
+  }();
   std::string text = R"({"inverse3":[)";
   if (!loses_device && !ids.empty()) {
     text += R"({"device_id":")" + ids.front() + R"(","state":{"cursor_position":)" + vector_text(place) +
@@ -82,7 +86,7 @@ std::string FakeHaply::state(double now) const {
     }
     text += "}";
   }
-  return text + R"(],"wireless_verse_grip":)" + (has_grip ? with_grip : "[]") + "}";
+  return text + R"(],"wireless_verse_grip":)" + (has_grip ? with_grip.at(buttons) : "[]") + "}";
 }
 
 std::string FakeHaply::answer(int session, const std::string& text, double now) {

@@ -4,6 +4,7 @@
 /// from the user, z up. Written only from the documents, independently of the driver. In the same process it runs on a
 /// clock that advances only during waits; haply_server.h puts it behind a real socket.
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,6 +26,7 @@ struct FakeHaply {
   std::string type = "inverse3";
   Vec3 place{0};  ///< m
   bool has_grip = true;
+  std::uint32_t buttons = 2;  ///< of the grip, below 8: bit 0 is "a"
   bool ready = true;
   double idle_after = 0.05;  ///< s without a message until the device goes idle
   double delay = 0.3e-3;     ///< s until an answer comes

@@ -152,7 +152,8 @@ def calls_changed(line, code):
         arguments = [line[a + 1 : b].strip() for a, b in zip(places, places[1:])]
         if any(not argument or DECLARATION.match(argument) for argument in arguments):
             continue
-        if len(arguments) == 1 and re.search(r"[=(,?:+\-*/<>&|] ?$|return $", code[: match.start()]) and arguments[0][0] not in "[{":
+        copied = match.group(1) == "std::move"  # the same value, more slowly
+        if len(arguments) == 1 and not copied and re.search(r"[=(,?:+\-*/<>&|] ?$|return $", code[: match.start()]) and arguments[0][0] not in "[{":
             before, after, call = line[: match.start()], line[end[0] + 1 :], line[match.start() : end[0] + 1]
             yield "call left out", f"{before}({arguments[0]}){after}", f"{before}(slip::on(@) ? ({arguments[0]}) : {call}){after}"
         for n, (one, two) in enumerate(zip(arguments, arguments[1:])) if not SYMMETRIC.search(match.group(1)) else ():

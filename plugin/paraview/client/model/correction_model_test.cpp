@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <variant>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace palpate::plugin {
 namespace {
 
 using testing::Correcting;
+using testing::CorrectingSlowly;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -150,6 +152,48 @@ TEST_F(Correcting, AnotherScanEndsItWithoutAStep) {
   EXPECT_TRUE(model.stroke().empty());
   model.let_go();
   EXPECT_THAT(kept_edits(), IsEmpty());
+}
+
+TEST_F(Correcting, ARadiusStaysWithinWhatAnEditMayHave) {
+  EXPECT_EQ(model.radius_mm(), 3);
+  for (const double wanted : {0.0, 1e-3, 7.0, 1e9}) {
+    model.set_radius_mm(wanted);
+    EXPECT_EQ(model.radius_mm(), std::clamp(wanted, io::edit_limits::least_mm, io::edit_limits::most_mm));
+  }
+  model.set_tool(Tool::add);
+  model.begin(liver, {});
+  model.draw_felt({{1, 2, 3}});
+  ASSERT_THAT(kinds(), ElementsAre("add")) << "and so it is taken";
+}
+
+/// Where nothing looks for the scan's edge a stroke is an edit at once.
+TEST_F(Correcting, WithoutASearchAFeltTraceIsAnEditAtOnce) {
+  model.begin(liver, {});
+  model.draw_felt({{0, 0, 0}, {1, 0, 0}});
+  EXPECT_THAT(kinds(), ElementsAre("trace"));
+  EXPECT_FALSE(model.is_tracing());
+  model.undo();
+  EXPECT_THAT(kinds(), ::testing::IsEmpty());
+}
+
+/// The contours that define a structure are no correction: Undo leaves them, however often it is pressed.
+TEST_F(CorrectingSlowly, UndoLeavesTheContoursThatDefineAStructure) {
+  modes::SceneStructure drawn{.name = "Lesion"};
+  io::ContoursEdit contours;
+  contours.loops_mm = {{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}}};
+  drawn.edits.emplace_back(contours);
+  scene.edit(QStringLiteral("Draw"), [&drawn](modes::Scene& now) { now.structures.push_back(drawn); });
+  all_is_read();
+  const io::Structure lesion = drawn_structure(drawn);
+  ASSERT_EQ(making_edits(lesion), 1U);
+  model.begin(lesion, {});
+  all_is_read();
+  stroke({{0, 0, 5}, {0, 1, 5}});
+  all_is_read();
+  ASSERT_THAT(model.edits(), ::testing::SizeIs(2));
+  for (int n = 0; n < 3; ++n) model.undo();
+  all_is_read();
+  EXPECT_THAT(model.edits(), ::testing::SizeIs(1));
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "plugin/paraview/client/model/testing/application.h"
 #include "plugin/paraview/client/model/testing/correcting.h"
 
 namespace palpate::plugin {
@@ -153,6 +155,47 @@ TEST_F(Correcting, ThePlanesFollowTheSlice) {
   EXPECT_EQ(kept.steps.size(), steps) << "while the wheel turns";
   stroke({{0, 0, 0}, {0, 1, 0}});
   EXPECT_DOUBLE_EQ(held_plane(modes::scene_from_json(kept.text("Scene"), "scene"), liver)->point_mm.z, 34);
+}
+
+/// Slices that were passed are no steps; the one where the view stays becomes one by itself.
+TEST_F(Correcting, ASliceBecomesAStepWhereTheViewStays) {
+  testing::application();
+  CorrectionModel with_timer{scene};  // made after the application, so that its timer runs
+  with_timer.begin(liver, {});
+  const HeldPlane slice{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}};
+  with_timer.hold_in(slice);
+  const std::size_t steps = kept.steps.size();
+  HeldPlane next = slice;
+  for (int n = 1; n <= 3; ++n) {
+    next.point_mm.z += 1;
+    with_timer.follow_slice(next);
+  }
+  EXPECT_EQ(kept.steps.size(), steps);
+  ASSERT_TRUE(testing::comes([&] { return kept.steps.size() > steps; }));
+  EXPECT_EQ(kept.steps.size(), steps + 1);
+  EXPECT_EQ(with_timer.held_in(), next);
+  with_timer.forget();
+}
+
+/// A scene from the pipeline is cleaned of a correction that does not run, as long as there is a model of corrections.
+TEST(CorrectionModel, NothingIsCleanedWithoutIt) {
+  MadeText kept;
+  SceneModel scene(kept);
+  auto model = std::make_unique<CorrectionModel>(scene);
+  io::Structure liver;
+  liver.file = "/study/liver.dcm";
+  liver.number = 3;
+  liver.name = "liver";
+  scene.open(modes::Scene{});
+  model->begin(liver, {.per_mm = 120});
+  const std::string correcting = kept.text("Scene");
+  model->end();
+  const std::size_t modes = scene.scene().modes.size();
+  kept.put("Scene", correcting);
+  EXPECT_EQ(scene.scene().modes.size(), modes) << "it is not felt";
+  model.reset();
+  kept.put("Scene", correcting + " ");
+  EXPECT_GT(scene.scene().modes.size(), modes);
 }
 
 }  // namespace

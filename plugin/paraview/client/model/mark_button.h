@@ -21,21 +21,25 @@ class MarkButton {
   }
   /// Releases the button after at least one tick has seen it pressed.
   void let_go() { letting_go_ = true; }
-  /// Cancels a press without making a mark.
+  /// Cancels a press: until the button is seen released it makes no mark.
   void forget() {
     live_.press(0);
-    presses_.drop();
     letting_go_ = false;
+    drop();
   }
-  /// Hand and patient are separated: a press in progress makes no mark.
-  void drop() { presses_.drop(); }
+  /// Hand and patient are separated: the same, and the button may stay pressed.
+  void drop() {
+    presses_.drop();
+    is_cut_off_ = true;
+  }
   /// The mark or path of a press of this button, or of the stylus' own, that ended in this tick. `proxy_mm(tick)`: the
   /// proxy's position.
   template <typename ProxyMm>
   std::optional<MarkMade> follow(const TickRecord& tick, std::span<const PrimitiveRecord> shares,
                                  const modes::Scene& scene, const ProxyMm& proxy_mm) {
     const bool is_pressed = (tick.buttons & mark_button) != 0;
-    if (!is_pressed && !presses_.is_down()) return std::nullopt;
+    is_cut_off_ = is_cut_off_ && is_pressed;  // ticks from before the cut may still come
+    if (is_cut_off_ || (!is_pressed && !presses_.is_down())) return std::nullopt;
     if (is_pressed && std::exchange(letting_go_, false)) live_.press(0);
     return presses_.take(
         {.tick = tick, .time_s = tick.time_s, .proxy_mm = proxy_mm(tick), .shares = shares, .scene = scene});
@@ -45,6 +49,7 @@ class MarkButton {
   LiveSession& live_;
   MarkPresses presses_;
   bool letting_go_ = false;
+  bool is_cut_off_ = false;
 };
 
 }  // namespace palpate::plugin

@@ -56,11 +56,13 @@ void ScanModel::tell(const QString& text, bool problem) {
 }
 
 void ScanModel::set_coming(coming::State next) {
-  const FoundList before = found() ? *found() : FoundList{};
+  const auto list = [this] {
+    return found() ? std::pair(found()->path, found()->catalogue)
+                   : std::pair(std::string(), std::shared_ptr<const io::Catalogue>());
+  };
+  const auto before = list();
   coming_ = std::move(next);
-  const FoundList now = found() ? *found() : FoundList{};
-  const bool same = before.path == now.path && before.catalogue == now.catalogue &&
-                    before.on_server.size() == now.on_server.size() && (now.catalogue || now.on_server.empty());
+  const bool same = list() == before;
   if (!same) emit listed();
   emit changed();
 }

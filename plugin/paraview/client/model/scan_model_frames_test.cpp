@@ -25,6 +25,26 @@ TEST(ScanHandleSaid, ASizeIsSlicesAndNoVoxels) {
   EXPECT_EQ(handle_of(of_a_server, held, 0, 1).series, size_in_words(volume));
 }
 
+TEST(ScanHandleSaid, AFrameIsCountedFromOneAndNamedWhereItHasAName) {
+  ScanHandle one;
+  one.series = "CT";
+  EXPECT_TRUE(one.frame_in_words().isEmpty());
+  EXPECT_EQ(one.in_words(), QStringLiteral("CT"));
+  ScanHandle several{.series = "DWI", .frame = 1, .frames = 3, .frame_names = {"b = 0 s/mm2", ""}};
+  EXPECT_EQ(several.frame_in_words(0), QStringLiteral("b = 0 s/mm2, 1 of 3"));
+  EXPECT_EQ(several.in_words(), QStringLiteral("DWI, frame 2 of 3"));
+  EXPECT_EQ(several.frame_in_words(2), QStringLiteral("frame 3 of 3")) << "it has fewer names than frames";
+}
+
+TEST_F(ScanModelFollowed, TheWantedFrameIsTheOneThatComes) {
+  EXPECT_EQ(model.wanted_frame(), 0);
+  show("1", 5);
+  world.time = 2;
+  EXPECT_EQ(model.wanted_frame(), 2) << "ParaView's time";
+  model.go_to_frame(4);
+  EXPECT_EQ(model.wanted_frame(), 4);
+}
+
 TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
   show("1", 5);
   model.go_to_frame(3);

@@ -70,6 +70,133 @@ TEST_F(ScanModelFollowed, WhatWasOvertakenIsNeverShown) {
   EXPECT_EQ(model.shown()->of.name, "1");
 }
 
+TEST_F(ScanModelFollowed, OfTwoChoicesTheLastIsShown) {
+  model.open("/two");
+  world.found_.back()(folder("/two", {series("1", "A", 1), series("2", "A", 1)}), {});
+  model.choose(0);
+  model.choose(1);
+  world.take_asked();
+  world.loaded_.front()(voxels(), {});
+  world.loaded_.front()({}, "a file is missing");
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  EXPECT_FALSE(model.message().problem);
+  ASSERT_TRUE(std::holds_alternative<coming::Loading>(model.coming()));
+  world.loaded_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("show 2"));
+}
+
+/// The list is told of when it is another, and by nothing else.
+TEST_F(ScanModelFollowed, AListIsToldOfOnce) {
+  int listed = 0;
+  QObject::connect(&model, &ScanModel::listed, [&listed] { ++listed; });
+  const auto count = [&listed] { return std::exchange(listed, 0); };
+  for (const bool remote : {false, true}) {
+    SCOPED_TRACE(remote);
+    world.remote = remote;
+    for (const std::string path : {"/a", "/b"}) {
+      model.open(path);
+      EXPECT_EQ(count(), path == "/a" && !remote ? 0 : 1) << "the one before is gone";
+      EXPECT_EQ(model.path(), path);
+      FoundList found = folder(path, {series("1", "A", 1), series("2", "A", 1)});
+      if (remote) found = {.path = path, .on_server = {{"1", "CT", true}, {"2", "CT", true}}};
+      world.found_.back()(found, {});
+      EXPECT_EQ(count(), 1);
+      EXPECT_EQ(model.path(), path);
+      model.choose(1);
+      if (!remote) world.loaded_.back()(voxels(), {});
+      world.made_.back()({});
+      if (remote) world.fetched_.back()({.volume = voxels(), .of = *model.seen()});
+      ASSERT_NE(model.shown(), nullptr);
+      model.restore(model.shown()->of, Brought::by_undo);
+      EXPECT_EQ(count(), 0) << "it is the same list";
+      world.fetched_.back()({.volume = voxels(), .of = *model.seen()});
+    }
+  }
+}
+
+TEST_F(ScanModelFollowed, AllWorkBeginsAtNothingAndTellsHowFarItIs) {
+  int changes = 0;
+  QObject::connect(&model, &ScanModel::changed, [&changes] { ++changes; });
+  const auto goes_on = [&](const auto& done_of) {
+    EXPECT_EQ(done_of(), 0);
+    changes = 0;
+    world.progress_(QStringLiteral("some work"), 0.25);
+    EXPECT_EQ(done_of(), 0.25);
+    EXPECT_EQ(changes, 1);
+  };
+  model.open("/one");
+  goes_on([&] { return std::get<coming::Finding>(model.coming()).done; });
+  const auto of_the_first = world.progress_;
+  model.open("/one");
+  of_the_first({}, 0.5);
+  EXPECT_EQ(std::get<coming::Finding>(model.coming()).done, 0) << "of a search that was overtaken";
+  world.found_.back()(folder("/one", {series("1", "A", 5)}), {});
+  goes_on([&] { return std::get<coming::Loading>(model.coming()).done; });
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  const SeriesRef of = model.shown()->of;
+  model.restore(of, Brought::by_state);
+  goes_on([&] { return std::get<in_views::Fetching>(model.in_views()).done; });
+  EXPECT_EQ(std::get<in_views::Fetching>(model.in_views()).what, QStringLiteral("some work"));
+}
+
+TEST_F(ScanModelFollowed, APictureThatCannotBeTakenOverIsNotFelt) {
+  for (const bool remote : {false, true}) {
+    SCOPED_TRACE(remote);
+    show("1");
+    const SeriesRef of = model.shown()->of;
+    world.remote = remote;
+    world.not_adopted = "the views are gone";
+    model.restore(of, Brought::by_undo);
+    if (!remote) world.fetched_.back()({.volume = voxels(), .of = of});
+    EXPECT_EQ(model.shown(), nullptr);
+    EXPECT_EQ(model.why_not_felt(), QStringLiteral("the views are gone"));
+    EXPECT_EQ(model.message().text, QStringLiteral("the views are gone"));
+    EXPECT_TRUE(model.message().problem);
+    const std::vector<std::string> here{"fetch 1", "adopt"}, there{"adopt"};
+    EXPECT_EQ(world.take_asked(), remote ? there : here);
+    world.remote = false;
+    world.not_adopted.clear();
+  }
+}
+
+TEST_F(ScanModelFollowed, AServersScanOfAStateIsSeenBeforeItIsFelt) {
+  world.remote = true;
+  const SeriesRef of{.path = "/there", .name = "1", .label = {}};
+  model.restore(of, Brought::by_state);
+  EXPECT_THAT(world.take_asked(), ElementsAre("adopt", "fetch 1"));
+  EXPECT_EQ(take_reported(), QStringList({"leaving", "out of reach "}));
+  EXPECT_EQ(model.message().text, QStringLiteral("notes on 1"));
+  world.fetched_.back()({.volume = {}, .said = QStringLiteral("no memory"), .of = {}});
+  EXPECT_EQ(take_reported(), QStringList({"out of reach no memory"}));
+  EXPECT_EQ(model.message().text, QStringLiteral("notes on 1\nno memory"));
+  model.add_copy("/here");
+  world.fetched_.back()({.volume = voxels(), .of = of});
+  EXPECT_EQ(model.shown()->of.name, "1");
+}
+
+/// A frame that was given up is not taken when it comes all the same.
+TEST_F(ScanModelFollowed, AServersFrameThatWasGivenUpIsNotTaken) {
+  world.remote = true;
+  model.open("/there");
+  world.found_.back()({.path = "/there", .on_server = {{"1", "CT", true}}}, {});
+  world.made_.back()({});
+  world.fetched_.back()({.volume = voxels(), .of = *model.seen(), .frames = 3});
+  EXPECT_EQ(model.wanted_frame(), 0);
+  model.go_to_frame(2);
+  model.follow_time();
+  EXPECT_EQ(model.wanted_frame(), 2);
+  EXPECT_EQ(std::get<in_views::Shown>(model.in_views()).coming->done, 0);
+  world.progress_(QStringLiteral("some work"), 0.5);
+  EXPECT_EQ(std::get<in_views::Shown>(model.in_views()).coming->done, 0.5);
+  model.cancel();
+  EXPECT_FALSE(std::get<in_views::Shown>(model.in_views()).coming);
+  take_reported();
+  world.fetched_.back()({.volume = voxels(), .of = {}, .frame = 2});
+  EXPECT_EQ(model.shown()->frame, 0);
+  EXPECT_EQ(take_reported(), QStringList());
+}
+
 TEST_F(ScanModelFollowed, TheScanBeforeIsFeltUntilAnotherIsInTheViews) {
   show("1");
   model.open("/2");

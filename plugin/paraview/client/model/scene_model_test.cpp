@@ -148,6 +148,21 @@ TEST(MarksModel, MarksAreOfTheScanThatIsShown) {
   EXPECT_EQ(marks.marks().points.size(), 1U);
 }
 
+TEST(MarksModel, ATextThatStaysTheSameIsNoChange) {
+  MadeText kept;
+  MarksModel marks(kept);
+  kept.open("{}");
+  marks.set_scan("1");
+  marks.edit(QStringLiteral("Mark"), [](Marks& now) { now.points.push_back({.name = "Mark 1"}); });
+  int changes = 0;
+  QObject::connect(&marks, &MarksModel::changed, [&changes] { ++changes; });
+  kept.put("Scene", "{}");
+  EXPECT_EQ(changes, 0);
+  kept.undo();
+  EXPECT_EQ(changes, 1);
+  EXPECT_TRUE(marks.marks().points.empty());
+}
+
 TEST(MarksModel, ANewPlaceInThePipelineGetsThemToo) {
   MadeText kept;
   MarksModel marks(kept);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "plugin/paraview/client/model/testing/made_text.h"
 #include "plugin/testing/opened_files.h"
 #include "plugin/testing/registered_study.h"
+#include "plugin/testing/test_clocks.h"
 #include "plugin/testing/test_files.h"
 
 namespace palpate::plugin {
@@ -82,6 +84,10 @@ TEST_F(SceneReading, NoChangeReadsFilesOnTheThreadThatAsks) {
           kept.put("Scene", modes::to_json(scene));
         },
         15}}};
+  modes::Scene scene = model.scene();
+  keeping_out(2)(scene);
+  (void)session.live().reading(scene, session.live().scan())();
+  const std::map<std::string, int> once = opened.count();  // by one reading
   for (const auto& [what, change] : changes) {
     SCOPED_TRACE(what);
     opened.count();
@@ -89,6 +95,7 @@ TEST_F(SceneReading, NoChangeReadsFilesOnTheThreadThatAsks) {
     const bool at_once = felt_margin_mm() == change.second;
     EXPECT_TRUE(!at_once || opened.count().empty()) << "it was read while the panel stood still";
     ASSERT_TRUE(comes([&] { return felt_margin_mm() == change.second; }));
+    for (const auto& [file, times] : opened.count()) EXPECT_LE(times, once.at(file)) << file << " was read again";
     EXPECT_FALSE(model.is_waiting());
     EXPECT_EQ(session.live().felt().structures.size(), change.second > 0 ? 1U : 0U);
   }
@@ -116,6 +123,34 @@ TEST_F(SceneReading, AnEditOfWhatIsFeltIsMadeInTheBackground) {
   EXPECT_EQ(felt_field(), before);
 }
 
+/// Not longer than their scan: fields are large.
+TEST_F(SceneReading, WhatWasReadIsForgottenWithItsScan) {
+  std::weak_ptr<const io::DistanceField> read;
+  for (const double margin_mm : {2.0, 6.0, 11.0}) {
+    model.edit(QStringLiteral("Keep out"), keeping_out(margin_mm));
+    ASSERT_TRUE(comes([&] { return felt_margin_mm() == margin_mm; }));
+    if (!read.lock()) read = felt_field();
+  }
+  EXPECT_FALSE(read.expired()) << "undo finds it again";
+  session.set_scan(testing::registered_scan(), {});
+  model.edit(QStringLiteral("Keep out"), keeping_out(20));
+  ASSERT_TRUE(comes([&] { return felt_margin_mm() == 20; }));
+  EXPECT_TRUE(read.expired());
+}
+
+/// Of the scene that is felt: a tick from before an edit names none of another scene's.
+TEST_F(SceneReading, TheNearestStructureIsTold) {
+  session.set_clock([](double period_s) { return std::make_unique<testing::UnhurriedClock>(period_s); });
+  session.connect_stylus({.device = "simulated"});
+  ASSERT_TRUE(comes([&] { return session.last().fresh; }));
+  EXPECT_FALSE(session.last().nearest) << "the scene has no structure";
+  model.edit(QStringLiteral("Keep out"), keeping_out(2));
+  ASSERT_TRUE(comes([&] { return session.last().nearest.has_value(); }));
+  EXPECT_EQ(session.last().nearest->structure, 0U);
+  EXPECT_EQ(session.last().tick.scene_epoch, session.live().epoch());
+  session.disconnect_stylus();
+}
+
 TEST_F(SceneReading, AFileThatIsGoneRefusesTheChangeAndSaysWhich) {
   std::filesystem::remove_all(folder / "cube");
   QString why;
@@ -129,6 +164,7 @@ TEST_F(SceneReading, AFileThatIsGoneRefusesTheChangeAndSaysWhich) {
 /// Another frame of the scan comes while a structure is read for the one before: it is felt on the new one.
 TEST_F(SceneReading, AChangeThatWaitsIsDoneOnTheFrameThatIsThereThen) {
   model.edit(QStringLiteral("Keep out"), keeping_out(2));
+  ASSERT_TRUE(model.is_waiting());
   const auto frame = testing::registered_scan();
   session.set_scan(frame, {.number = 1, .count = 2});
   ASSERT_TRUE(comes([&] { return felt_margin_mm() == 2; }));

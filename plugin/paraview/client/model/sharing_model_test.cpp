@@ -51,7 +51,6 @@ struct SharingTest : testing::WithApplication, ::testing::Test {
     comes([&] {
       const auto message = next(client, "STATUS", igtl::program_name);
       if (!message) return true;
-      if (!message) return true;
       const igtl::Status status = igtl::status_of(message->content);
       if (status.name == name) text = status.text;
       return !text.empty();
@@ -169,6 +168,31 @@ TEST_F(SharingTest, MarksGoBothWaysAndNoneIsLost) {
   EXPECT_EQ(marks.marks().points.size(), 2U);
 }
 
+TEST_F(SharingTest, AMarkWithoutANameGetsOneThatIsFree) {
+  open_scan();
+  marks.edit(QStringLiteral("Mark"), [](Marks& now) { now.points.push_back({.name = "Mark 1"}); });
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  client.send({.type = "POINT",
+               .device = igtl::marks_name,
+               .content = igtl::content_of(std::vector<igtl::Point>{{.position = {1, 0, 0}}})});
+  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 2; }));
+  EXPECT_EQ(marks.marks().points[1].name, "Mark 2");
+}
+
+/// Such as one of flow, on a scan of one value: nothing changes, and the client learns why.
+TEST_F(SharingTest, ASceneThatCannotBeFeltIsRefused) {
+  open_scan();
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  const std::string before = modes::to_json(model.scene());
+  modes::Scene other = modes::load_scene("flow");
+  other.limits = model.scene().limits;
+  client.send_text(igtl::scene_name, modes::to_json(other));
+  EXPECT_NE(next_status(client, "refused"), "");
+  EXPECT_EQ(modes::to_json(model.scene()), before);
+}
+
 TEST_F(SharingTest, WithoutAScanAClientIsToldSo) {
   ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
   TestClient client(sharing.port());
@@ -186,6 +210,7 @@ TEST_F(SharingTest, ATakenPortIsSaidAndTurningOffLetsClientsGo) {
   sharing.turn_off();
   EXPECT_TRUE(client.is_closed_soon());
   EXPECT_EQ(sharing.port(), 0);
+  EXPECT_EQ(sharing.clients(), 0U);
 }
 
 /// The stylus comes and goes while it is shared: frames are sent of the session that runs.

@@ -17,6 +17,8 @@ TEST(SlowWork, IsTheSlowestOfThatWhichEndedJustNow) {
   EXPECT_TRUE(work.in_words(begin).isEmpty());
   work.note("drawing", 0.4, begin);
   EXPECT_TRUE(work.in_words(begin).isEmpty()) << "too short to be why";
+  work.note("loading", 0.5, begin);
+  EXPECT_EQ(work.in_words(begin).toStdString(), "loading took 0.5 s");
   work.note("drawing", 2.31, begin);
   work.note("drawing", 0.6, begin + milliseconds(700));
   EXPECT_EQ(work.in_words(begin + milliseconds(800)).toStdString(), "drawing took 2.3 s");

@@ -3,6 +3,7 @@
 /// A fake ScanWorld: it records requests, and the test answers them when it wants to.
 
 #include <deque>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ class MadeWorld : public ScanWorld {
   }
   void adopt() override {
     asked.emplace_back("adopt");
+    if (!not_adopted.empty()) throw std::runtime_error(not_adopted);
     view.in_pipeline = view.seen = true;
   }
   void close() override {
@@ -68,6 +70,7 @@ class MadeWorld : public ScanWorld {
   std::vector<std::string> take_asked() { return std::exchange(asked, {}); }
 
   bool remote = false;
+  std::string not_adopted;  // why; empty: it is
   int time = 0;
   ViewFacts view;
   std::vector<std::string> asked, looked_in;

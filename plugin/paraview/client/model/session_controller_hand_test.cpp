@@ -1,0 +1,287 @@
+// The simulated hand of a session, its marks and its clutch, in the patient.
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <variant>
+
+#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/model/testing/controlled_session.h"
+#include "plugin/paraview/client/words.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::comes;
+using testing::ControlledSession;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+TEST_F(ControlledSession, TheHandIsWhereItIsMovedAndFeelsWhatIsThere) {
+  EXPECT_FALSE(session.has_simulated());
+  EXPECT_FALSE(session.takes_mouse());
+  EXPECT_FALSE(last().is_seen());
+  connect_simulated();
+  EXPECT_TRUE(session.has_simulated());
+  EXPECT_TRUE(session.takes_mouse());
+  EXPECT_TRUE(last().is_seen());
+  ASSERT_TRUE(goes_to(outside));
+  EXPECT_EQ(session.hand_mm(), outside);
+  EXPECT_FALSE(last().feels);
+  ASSERT_TRUE(goes_to(inside));
+  EXPECT_EQ(last().force_n, 0) << "forces are not on yet";
+  ASSERT_TRUE(goes_to(outside));
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  session.move_hand(inside);
+  ASSERT_TRUE(pushes());
+  EXPECT_LT(glm::length(last().probe_mm), glm::length(last().proxy_mm)) << "held at the skin";
+  EXPECT_NEAR(glm::length(last().proxy_mm), 25, 1);
+  EXPECT_GE(last().peak_n, last().force_n);
+  EXPECT_GT(last().tick_us, 0);
+  EXPECT_THAT(last().held, ::testing::HasSubstr("kin"));
+  EXPECT_EQ(last().tissue, "between tissues");
+  session.let_go();
+  EXPECT_NE(session.hand_mm(), inside);
+  EXPECT_TRUE(comes([this] { return last().force_n < 0.02; })) << "the simulated hand relaxes";
+  EXPECT_TRUE(last().feels) << "the forces stay on";
+  // A hand that has relaxed stays where it is until it is moved.
+  polls(3);
+  ASSERT_TRUE(goes_to(outside));
+  polls(3);
+  EXPECT_TRUE(is_near(outside));
+}
+
+TEST_F(ControlledSession, TheMouseIsTheHandsOnlyWhereNothingElseWantsIt) {
+  session.keep_mouse_off(true);
+  connect_simulated();
+  EXPECT_FALSE(session.takes_mouse());
+  session.keep_mouse_off(false);
+  EXPECT_TRUE(session.takes_mouse());
+  session.disconnect_stylus();
+  EXPECT_FALSE(session.takes_mouse());
+  EXPECT_FALSE(session.has_simulated());
+}
+
+TEST_F(ControlledSession, ASimulatedStylusBeginsAtTheStartUnlessItIsFelt) {
+  glm::dvec3 start = outside;
+  session.set_start([&start](const device::Specification& of) {
+    EXPECT_GT(of.maximum_force, 0);
+    return start;
+  });
+  connect_simulated();
+  EXPECT_TRUE(comes([&] { return is_near(outside); }));
+  const glm::dvec3 elsewhere{30, 0, 0};
+  ASSERT_TRUE(goes_to(elsewhere));
+  session.begin_outside();
+  EXPECT_TRUE(comes([&] { return is_near(outside); }));
+  // Where another scan is expected it waits for it.
+  ASSERT_TRUE(goes_to(elsewhere));
+  start = {0, 0, 32};
+  session.expect_scan();
+  session.begin_outside();
+  polls(3);
+  EXPECT_TRUE(is_near(elsewhere));
+  session.set_scan(igtl::testing::ball_of_tissue(), {});
+  EXPECT_TRUE(comes([&] { return is_near(start); }));
+  // And no hand that feels is moved.
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  start = elsewhere;
+  session.begin_outside();
+  polls(5);
+  EXPECT_FALSE(is_near(elsewhere));
+}
+
+/// The panel's button and a place that is pressed at once.
+TEST_F(ControlledSession, APressOfThePanelsButtonIsAMarkOfWhatIsFelt) {
+  session.press_mark();  // nothing: there is no stylus
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  session.feel();
+  session.move_hand(inside);
+  ASSERT_TRUE(pushes());
+  EXPECT_THAT(marks, IsEmpty());
+  const FeltMark here = session.mark_here();
+  EXPECT_LT(glm::distance(here.position_mm, last().proxy_mm), 1e-9);
+  EXPECT_THAT(here.boundary, ::testing::HasSubstr("kin"));
+  EXPECT_GT(here.force_n, 0.1);
+  session.press_mark();
+  session.let_go_mark();
+  ASSERT_TRUE(comes([this] { return !marks.empty(); }));
+  ASSERT_TRUE(std::holds_alternative<FeltMark>(marks[0]));
+  const auto& mark = std::get<FeltMark>(marks[0]);
+  EXPECT_NEAR(glm::length(mark.position_mm), 25, 1);
+  EXPECT_EQ(mark.boundary, here.boundary);
+  polls(5);
+  EXPECT_THAT(marks, SizeIs(1)) << "one press, one mark";
+}
+
+TEST_F(ControlledSession, AButtonThatIsHeldWhileTheHandGoesMakesAPath) {
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  session.press_mark();
+  ASSERT_TRUE(goes_to({20, -32, 0}));
+  polls(10);  // more than a quarter of a second
+  EXPECT_THAT(marks, IsEmpty()) << "it is still held";
+  session.let_go_mark();
+  ASSERT_TRUE(comes([this] { return !marks.empty(); }));
+  ASSERT_TRUE(std::holds_alternative<MarkedPath>(marks[0]));
+  const auto& path = std::get<MarkedPath>(marks[0]);
+  EXPECT_GT(path.length_mm, 19) << "and the hand trembles";
+  EXPECT_LT(glm::distance(path.points_mm.front(), outside), 2);
+  EXPECT_LT(glm::distance(path.points_mm.back(), glm::dvec3(20, -32, 0)), 2);
+}
+
+/// A press that begins on one stylus, scan or session and would end on another is none.
+TEST_F(ControlledSession, APressThatIsCutOffMakesNoMark) {
+  const std::string file = std::filesystem::temp_directory_path() / "palpate-cut-off-press.h5";
+  const std::pair<const char*, std::function<void()>> cuts[] = {
+      {"another stylus", [this] { session.disconnect_stylus(), session.connect_stylus({.device = "simulated"}); }},
+      {"connected again", [this] { session.connect_stylus({.device = "simulated"}); }},
+      {"another scan", [this] { session.set_scan(igtl::testing::ball_of_tissue(), {}); }},
+      {"a recording", [this, &file] { session.record(file); }},
+      {"the clutch", [this] { session.clutch(), session.unclutch(session.last().workspace.rotation); }}};
+  for (const auto& [what, cut] : cuts) {
+    SCOPED_TRACE(what);
+    connect_simulated();
+    session.press_mark();
+    ASSERT_TRUE(comes([this] { return (last().tick.buttons & mark_button) != 0; }));
+    cut();
+    ASSERT_TRUE(comes([this] { return (last().tick.buttons & mark_button) == 0; }));
+    session.let_go_mark();
+    polls(3);
+    EXPECT_THAT(marks, IsEmpty());
+    session.disconnect_stylus();
+  }
+}
+
+/// The stylus stays at its place in the patient, however the hand goes and the workspace is turned meanwhile.
+TEST_F(ControlledSession, AClutchedHandLeavesTheStylusWhereItIs) {
+  const glm::dmat3 turned = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))));
+  for (const bool felt : {false, true}) {
+    SCOPED_TRACE(felt);
+    connect_simulated();
+    ASSERT_TRUE(goes_to(outside));
+    if (felt) session.feel();
+    ASSERT_TRUE(comes([&] { return last().feels == felt; }));
+    EXPECT_FALSE(session.is_clutched());
+    session.clutch();
+    EXPECT_TRUE(session.is_clutched());
+    const glm::dvec3 stays = last().probe_mm;
+    ASSERT_TRUE(comes([this] { return last().clutched && !last().feels; }));
+    EXPECT_TRUE(session.may_remap());
+    session.press_mark();
+    session.move_hand(outside + glm::dvec3(15, 5, 0));
+    const double before = last().tick.probe_m[0];
+    ASSERT_TRUE(comes([&] { return std::abs(last().tick.probe_m[0] - before) > 0.0145; }));
+    polls(15);  // until it rests
+    EXPECT_EQ(last().probe_mm, stays);
+    EXPECT_EQ(last().proxy_mm, stays);
+    EXPECT_THAT(marks, IsEmpty());
+    session.unclutch(turned);
+    EXPECT_FALSE(session.is_clutched());
+    polls(5);
+    EXPECT_LT(glm::distance(last().probe_mm, stays), 1.5) << "the hand trembles";
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LT(glm::distance(last().workspace.rotation[axis], turned[axis]), 1e-6);
+    }
+    EXPECT_TRUE(comes([&] { return last().feels == felt; }));
+    session.disconnect_stylus();
+    model.open(modes::load_scene("ct-skin-and-bone"));
+  }
+}
+
+TEST_F(ControlledSession, AClutchThatIsReleasedStaysWithoutAForce) {
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  session.clutch();
+  session.release();
+  session.unclutch(last().workspace.rotation);
+  polls(5);
+  EXPECT_FALSE(last().feels);
+  session.unclutch(last().workspace.rotation);  // nothing to end
+  EXPECT_FALSE(session.is_clutched());
+}
+
+TEST_F(ControlledSession, TheMappingStaysWhileAForceIsFelt) {
+  EXPECT_TRUE(session.may_remap());
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  EXPECT_TRUE(session.may_remap());
+  session.feel();
+  session.move_hand(inside);
+  ASSERT_TRUE(pushes());
+  EXPECT_FALSE(session.may_remap());
+}
+
+TEST_F(ControlledSession, WhatKeepsTheForceOffEndsItAndRefusesTheNext) {
+  connect_simulated();
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  session.keep_off("a dialog is open");
+  ASSERT_TRUE(comes([this] { return !last().feels; }));
+  EXPECT_EQ(last().kept_off, QStringLiteral("a dialog is open"));
+  told.clear();
+  session.feel();
+  polls(3);
+  EXPECT_FALSE(last().feels);
+  EXPECT_THAT(told, ::testing::ElementsAre(std::pair("a dialog is open", true)));
+  session.keep_off({});
+  polls(3);
+  EXPECT_FALSE(last().feels) << "only a press turns it on";
+  session.feel();
+  EXPECT_TRUE(comes([this] { return last().feels && last().kept_off.isEmpty(); }));
+  // The same reason again is no new reason to let go.
+  session.keep_off({});
+  polls(3);
+  EXPECT_TRUE(last().feels);
+  session.expect_scan();
+  polls(2);
+  EXPECT_EQ(last().kept_off, words(say("scan-is-still-being-read")));
+}
+
+TEST_F(ControlledSession, WithoutAScanNoStylusIsConnected) {
+  session.set_no_scan("there is no scan");
+  EXPECT_EQ(session.why_no_scan(), QStringLiteral("there is no scan"));
+  session.connect_stylus({.device = "simulated"});
+  EXPECT_FALSE(session.live().is_connected());
+  EXPECT_THAT(told, ::testing::ElementsAre(std::pair("there is no scan", true)));
+  session.feel();
+  EXPECT_THAT(told, SizeIs(1)) << "there is nothing to feel with";
+  session.expect_scan();
+  session.connect_stylus({.device = "simulated"});
+  EXPECT_EQ(told.back(), std::pair(words(say("scan-is-still-being-read")).toStdString(), true));
+  session.set_scan(igtl::testing::ball_of_tissue(), {});
+  EXPECT_TRUE(session.why_no_scan().isEmpty());
+  session.connect_stylus({.device = "no such stylus"});
+  EXPECT_FALSE(session.live().is_connected());
+  EXPECT_FALSE(session.has_simulated());
+  EXPECT_THAT(told.back().first, ::testing::HasSubstr("no such stylus"));
+  EXPECT_TRUE(told.back().second);
+}
+
+/// A recording's status is shown while no stylus is connected.
+TEST_F(ControlledSession, ARecordingIsShownUntilAStylusIsConnected) {
+  SessionStatus recorded;
+  recorded.fresh = recorded.replayed = true;
+  recorded.probe_mm = {1, 2, 3};
+  session.show_instead([&recorded] { return recorded; });
+  polls(2);
+  EXPECT_EQ(last().probe_mm, recorded.probe_mm);
+  EXPECT_TRUE(last().is_seen());
+  connect_simulated();
+  EXPECT_FALSE(last().replayed);
+  session.disconnect_stylus();
+  EXPECT_TRUE(last().replayed);
+  session.show_instead({});
+  polls(2);
+  EXPECT_FALSE(last().is_seen());
+}
+
+}  // namespace
+}  // namespace palpate::plugin

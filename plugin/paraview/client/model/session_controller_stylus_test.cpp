@@ -1,0 +1,150 @@
+// A stylus behind a real socket: its buttons, its orientation, and what happens when it is lost.
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+
+#include "device/testing/haply_server.h"
+#include "plugin/paraview/client/model/session_state.h"
+#include "plugin/paraview/client/model/testing/controlled_session.h"
+#include "plugin/testing/test_files.h"
+
+namespace palpate::plugin {
+namespace {
+
+using testing::comes;
+
+struct SessionOfAStylus : testing::ControlledSession {
+  SessionOfAStylus() {
+    setenv("XDG_STATE_HOME", state.c_str(), 1);
+    device::FakeHaply service;
+    service.buttons = 0;
+    server.emplace(service);
+    std::ofstream(settings) << R"({"host": "127.0.0.1", "port": )" << server->port() << "}";
+  }
+  ~SessionOfAStylus() override {
+    session.disconnect_stylus();
+    unsetenv("XDG_STATE_HOME");
+  }
+  bool is_connected() {
+    session.connect_stylus({.device = "haply", .settings = settings});
+    return session.live().is_connected() && comes([this] { return last().fresh; });
+  }
+  void hold_down(std::uint32_t buttons) {
+    server->with([buttons](device::FakeHaply& service) { service.buttons = buttons; });
+  }
+  bool holds_down(std::uint32_t buttons) {
+    hold_down(buttons);
+    return comes([this, buttons] { return last().tick.buttons == buttons; });
+  }
+  bool is_felt() {
+    session.feel();
+    return comes([this] { return last().feels; });
+  }
+
+  std::string state = std::filesystem::absolute(testing::fresh_path("stylus_state"));
+  std::string settings = testing::fresh_path("stylus.json").string();
+  std::optional<device::HaplyServer> server;
+};
+
+TEST_F(SessionOfAStylus, ItsButtonsClutchMarkAndRelease) {
+  ASSERT_TRUE(is_connected());
+  EXPECT_FALSE(session.has_simulated());
+  EXPECT_FALSE(session.takes_mouse());
+  ASSERT_TRUE(is_felt());
+  ASSERT_TRUE(holds_down(4));
+  EXPECT_TRUE(comes([this] { return !last().feels; })) << "released";
+  EXPECT_FALSE(session.is_clutched());
+  ASSERT_TRUE(holds_down(0));
+  ASSERT_TRUE(is_felt());
+  ASSERT_TRUE(holds_down(1));
+  EXPECT_TRUE(comes([this] { return session.is_clutched(); }));
+  EXPECT_EQ(unclutches, 0);
+  ASSERT_TRUE(holds_down(0));
+  EXPECT_TRUE(comes([this] { return unclutches == 1; }));
+  session.unclutch(last().workspace.rotation);
+  ASSERT_TRUE(comes([this] { return last().feels; })) << "as before the clutch";
+  // A key that is both is the clutch.
+  ASSERT_TRUE(holds_down(5));
+  EXPECT_TRUE(comes([this] { return session.is_clutched(); }));
+  ASSERT_TRUE(holds_down(0));
+  session.unclutch(last().workspace.rotation);
+  EXPECT_TRUE(comes([this] { return last().feels; }));
+  EXPECT_TRUE(marks.empty());
+  ASSERT_TRUE(holds_down(2));
+  ASSERT_TRUE(holds_down(0));
+  EXPECT_TRUE(comes([this] { return marks.size() == 1; }));
+}
+
+TEST_F(SessionOfAStylus, ItsOrientationIsInThePatient) {
+  ASSERT_TRUE(is_connected());
+  ASSERT_TRUE(comes([this] { return last().orientation.has_value(); }));
+  // A quarter turn about the service's z, which points up: about the device's y.
+  const glm::dquat turned = glm::angleAxis(glm::half_pi<double>(), glm::dvec3(0, 1, 0));
+  const glm::dquat expected = glm::quat_cast(last().workspace.rotation) * turned;
+  EXPECT_NEAR(std::abs(glm::dot(*last().orientation, expected)), 1, 1e-6);
+  session.disconnect_stylus();
+  connect_simulated();
+  EXPECT_FALSE(last().orientation) << "the simulated one has none";
+}
+
+TEST_F(SessionOfAStylus, ALostOneIsSaidToBeLostAndIsOpenedAgainWithoutAForce) {
+  ASSERT_TRUE(is_connected());
+  ASSERT_TRUE(is_felt());
+  EXPECT_TRUE(session.last_fault().isEmpty());
+  server->drop();
+  ASSERT_TRUE(comes([this] { return state_line_of(last()).lost; }));
+  const StateLine line = state_line_of(last());
+  EXPECT_EQ(line.state, SessionState::stopped);
+  EXPECT_FALSE(last().trouble.isEmpty());
+  EXPECT_EQ(line.words.toStdString(), "Stopped: " + last().trouble.toStdString());
+  EXPECT_FALSE(last().feels);
+  ASSERT_TRUE(comes([this] { return !session.last_fault().isEmpty(); }));
+  EXPECT_THAT(session.last_fault().toStdString(), ::testing::HasSubstr("device lost"));
+  session.feel();
+  testing::ControlledSession::polls(3);
+  EXPECT_EQ(last().force_n, 0) << "a fault stays until it is cleared";
+  session.clear_fault();
+  EXPECT_TRUE(session.live().is_connected());
+  ASSERT_TRUE(comes([this] { return state_line_of(last()).state == SessionState::ready; }));
+  EXPECT_FALSE(last().feels) << "only a press turns it on";
+  EXPECT_TRUE(is_felt());
+}
+
+TEST_F(SessionOfAStylus, OneThatIsGoneIsNotOpenedAgainAndItIsSaidWhy) {
+  ASSERT_TRUE(is_connected());
+  ASSERT_TRUE(is_felt());
+  server.reset();
+  ASSERT_TRUE(comes([this] { return state_line_of(last()).lost; }));
+  told.clear();
+  session.clear_fault();
+  EXPECT_FALSE(session.live().is_connected());
+  EXPECT_FALSE(last().connected);
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(told.back().second);
+  EXPECT_THAT(told.back().first, ::testing::HasSubstr("127.0.0.1"));
+}
+
+/// Another fault than a lost stylus is forgotten, and the same session goes on.
+TEST_F(SessionOfAStylus, AFaultOfTheHandIsClearedWithoutOpeningTheStylusAgain) {
+  ASSERT_TRUE(is_connected());
+  ASSERT_TRUE(is_felt());
+  bool is_far = false;
+  ASSERT_TRUE(comes([&] {  // to and fro, faster than any hand
+    is_far = !is_far;
+    server->with([is_far](device::FakeHaply& service) { service.place = {is_far ? 0.05 : -0.05, 0, 0}; });
+    return state_line_of(last()).fault_latched;
+  }));
+  EXPECT_FALSE(state_line_of(last()).lost);
+  const int sessions = server->sessions();
+  session.clear_fault();
+  EXPECT_TRUE(comes([this] { return state_line_of(last()).state == SessionState::ready; }));
+  EXPECT_EQ(server->sessions(), sessions);
+  EXPECT_FALSE(last().feels);
+}
+
+}  // namespace
+}  // namespace palpate::plugin
