@@ -51,7 +51,7 @@ class Search {
   internal::Walk walk_;
   Solution solution_;
   int cap_;
-  double bound_ = infinity;   // of the best answer
+  double bound_ = infinity;   // of the best answer, whatever stood for infinity
   double hard_strength_ = 0;  // N: what stands for infinity; 0 where nothing is hard
   double extent_ = 0;         // m: of the start
   bool is_swept_ = false;     // whether the end of the sweep, below, is known
@@ -336,7 +336,6 @@ Solution Search::run(Start start) {
   }
   while (!walk_as_given(start) && !walk_apart() && hard_strength_ > 0 && hard_strength_ < 1e60) {
     hard_strength_ *= 0x1p30;
-    bound_ = infinity;
     start = Start::cold;
   }
   if (solution_.outcome != Outcome::solved && hard_strength_ > 0) {

@@ -46,6 +46,7 @@ double distance_of(const Primitive& primitive, const Vec3& proxy) {
 }
 
 TEST(HardConstraints, ThatMeetButForTheRoundingOfTheirPositionsAreNeverIncompatible) {
+  int unknown = 0;
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {
     Random random(seed);
     const Vec3 common = random.normal_vector(random.log_uniform(1e-6, 1));
@@ -75,7 +76,11 @@ TEST(HardConstraints, ThatMeetButForTheRoundingOfTheirPositionsAreNeverIncompati
     ASSERT_NE(other.outcome, Outcome::refused) << seed;
     const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
     ASSERT_LE(glm::distance(other.proxy, one.proxy), one.error_bound + other.error_bound + rounding) << seed;
+    unknown += one.error_bound > 0.01 ? 1 : 0;
   }
+  // What stands for infinity is raised where it is too small, and forces of that size round: of all answers the best is
+  // kept, not the last (62 balances).
+  EXPECT_LT(unknown, 30);
 }
 
 }  // namespace
