@@ -192,7 +192,6 @@ FOLDERS = {
     "slices_are_read_and_measured": named,
     "the_table_is_cut_away": on_a_table,
     "a_scene_shows_what_it_does": lambda: phantom("wedge", "wedge"),
-    "series_are_listed_in_full": six,
     "scenes_are_offered_by_the_part": chest,
     "a_picture_at_rest_comes_in_turns": lambda: phantom("large", "sphere", "--radius", "25", "--size", "256,256,256",
                                                         "--spacing", "0.3,0.3,0.3"),
@@ -371,6 +370,7 @@ TESTS["what_is_to_be_known_is_said"] = told_of_its_scan
 TESTS["what_is_shared_is_what_is_felt"] = shared
 for dropped in ("first_image", "the_volume_turns", "memory_of_a_scan"):
     TESTS[dropped] = lambda name=dropped: run(name, PALPATE_DROP=os.environ.get("PALPATE_FOLDER") or ball())
+TESTS["series_are_listed_in_full"] = lambda: run("series_are_listed_in_full", PALPATE_DROP=six())
 TESTS["the_volume_is_drawn_seldom"] = lambda: run("the_volume_is_drawn_seldom", PALPATE_DROP=on_a_table())
 TESTS["the_volume_lies_in_the_patient"] = lambda: run("the_volume_lies_in_the_patient", PALPATE_DROP=phantom(
     "oblique", "sphere", "--radius", "25", "--orientation", "0.6", "0.8", "0", "-0.64", "0.48", "0.6"))

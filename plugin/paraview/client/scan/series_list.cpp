@@ -54,6 +54,8 @@ void SeriesList::list_files(const FoundList& found) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(found.path, ignored)) std::ranges::sort(order);
   const auto first = io::choose_first(found.catalogue->series);
+  QPixmap no_picture_yet(iconSize());  // the words keep their width and the rows their places when the pictures come
+  no_picture_yet.fill(Qt::transparent);
   for (const std::size_t n : order) {
     const io::Series& series = scan_at(*found.catalogue, n);
     QStringList lines{QString::fromStdString(scan_label(series)), series_details(series)};
@@ -61,7 +63,7 @@ void SeriesList::list_files(const FoundList& found) {
     if (first && first->index == n && order.size() > 1) {
       lines << tr("★ Best to feel first: %1").arg(QString::fromStdString(first->why));
     }
-    auto* const row = new QListWidgetItem(lines.join(QLatin1Char('\n')), this);
+    auto* const row = new QListWidgetItem(no_picture_yet, lines.join(QLatin1Char('\n')), this);
     row->setData(Qt::UserRole, static_cast<qulonglong>(n));
     // Shown to verify the patient, never stored: only where the pointer rests.
     row->setToolTip(tr("%1\nID %2, study of %3")

@@ -217,10 +217,17 @@ void small_things_are_right() {
   expect(scrollers == 1, "the tissues scroll with the panel alone: " + std::to_string(scrollers));
 }
 
-/// Six series of one folder: all in sight.
+/// Six series of one folder: all in sight. Their pictures may come late: each row has room for its own from the start.
 void series_are_listed_in_full() {
   auto& series = find<QListWidget>("palpateSeries");
+  const auto rows = std::make_shared<int>(0);
+  QObject::connect(series.model(), &QAbstractItemModel::rowsInserted, &series,
+                   [&series, rows](const QModelIndex&, int first, int last) {
+                     for (int n = first; n <= last; ++n) *rows += series.item(n)->icon().isNull() ? 0 : 1;
+                   });
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
   wait_for("the series are listed", [&] { return series.count() > 5; });
+  expect(*rows == series.count(), "each with room for its picture");
   wait_for(
       "the last of six rows is in sight",
       [&] { return series.viewport()->rect().contains(series.visualItemRect(series.item(series.count() - 1))); }, 20);
