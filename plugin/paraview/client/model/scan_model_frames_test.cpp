@@ -79,7 +79,12 @@ TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
   model.follow_time();
   world.frames_.front()(voxels(), {});
   EXPECT_EQ(model.shown()->frame, 0) << "ParaView has gone on";
+  world.frames_.back()({}, {});
+  EXPECT_FALSE(model.message().problem) << "it was stopped";
+  model.follow_time();
   world.frames_.back()({}, "frame 4 is not whole");
+  EXPECT_EQ(model.message().text, QStringLiteral("frame 4 is not whole"));
+  EXPECT_TRUE(model.message().problem);
   EXPECT_EQ(model.shown()->frame, 0);
   EXPECT_EQ(model.why_not_felt(), words(say("views-show-another-scan", model.shown()->frame_in_words(4).toStdString(),
                                             model.shown()->frame_in_words(0).toStdString())));

@@ -17,6 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 TEST_F(ScanModelFollowed, AnOnlySeriesIsShownAtOnce) {
+  EXPECT_FALSE(model.message().problem);
   model.open("/one");
   EXPECT_TRUE(std::holds_alternative<coming::Finding>(model.coming()));
   world.found_.back()(folder("/one", {series("1", "A", 1)}), {});
@@ -197,6 +198,47 @@ TEST_F(ScanModelFollowed, AServersFrameThatWasGivenUpIsNotTaken) {
   EXPECT_EQ(take_reported(), QStringList());
 }
 
+/// Its voxels are read by one program at a time, so they are let go before the next folder is looked through.
+TEST_F(ScanModelFollowed, AServersScanIsNotFeltWhileAnotherFolderIsLookedThrough) {
+  world.remote = true;
+  model.open("/there");
+  world.found_.back()({.path = "/there", .on_server = {{"1", "CT", true}}}, {});
+  world.made_.back()({});
+  world.fetched_.back()({.volume = voxels(), .of = *model.seen()});
+  ASSERT_NE(model.shown(), nullptr);
+  take_reported();
+  model.open("/next");
+  EXPECT_TRUE(std::holds_alternative<in_views::OutOfReach>(model.in_views()));
+  EXPECT_EQ(model.why_not_felt(), words(say("scan-is-on-the-server")));
+  EXPECT_EQ(take_reported(), QStringList({"out of reach "}));
+}
+
+/// Work whose answer nobody waits for is ended, and not only ignored.
+TEST_F(ScanModelFollowed, WhatIsOvertakenIsStopped) {
+  model.open("/one");
+  int before = world.stopped;
+  model.open("/two");
+  EXPECT_GT(world.stopped, before);
+  world.found_.back()(folder("/two", {series("2", "A", 5)}), {});
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  model.go_to_frame(3);
+  before = world.frames_stopped;
+  const SeriesRef of = model.shown()->of;
+  model.lose();
+  EXPECT_GT(world.frames_stopped, before);
+  model.restore(of, Brought::by_undo);
+  before = world.fetching_stopped;
+  model.lose();
+  EXPECT_GT(world.fetching_stopped, before);
+  model.restore(of, Brought::by_undo);
+  before = world.stopped;
+  const int fetching_before = world.fetching_stopped;
+  model.cancel();
+  EXPECT_GT(world.stopped, before);
+  EXPECT_GT(world.fetching_stopped, fetching_before);
+}
+
 TEST_F(ScanModelFollowed, TheScanBeforeIsFeltUntilAnotherIsInTheViews) {
   show("1");
   model.open("/2");
@@ -333,7 +375,9 @@ TEST_F(ScanModelFollowed, AServersScanIsSeenBeforeItIsFelt) {
   world.fetched_.back()({.volume = voxels(), .said = {}, .of = {}, .frame = 2});
   EXPECT_EQ(model.shown()->frame, 2);
   EXPECT_TRUE(model.why_not_felt().isEmpty());
+  take_reported();
   model.lose_server();
+  EXPECT_EQ(take_reported(), QStringList({"leaving"}));
   EXPECT_EQ(model.shown(), nullptr);
   EXPECT_EQ(model.found(), nullptr);
 }

@@ -121,6 +121,18 @@ TEST_F(SceneModelReading, WhatWasPressedForAnotherScanIsNotDone) {
 }
 
 /// A mouse moves faster than files are read: only where it is now counts, and the step is its last place.
+/// A scene from the pipeline is no press: it is taken, whatever was dropped before it.
+TEST_F(SceneModelReading, ASceneOfThePipelineIsTakenWhereThePressBeforeItIsDropped) {
+  press("liver");
+  modes::Scene scene;
+  scene.name = "from a script";
+  kept.put("Scene", modes::to_json(scene));
+  ASSERT_NE(model.scene().name, "from a script") << "it waits";
+  model.drop_waiting();
+  EXPECT_EQ(model.scene().name, "from a script");
+  EXPECT_THAT(named(), IsEmpty());
+}
+
 TEST_F(SceneModelReading, OfADragThatWaitsOnlyTheNewestPlaceIsDone) {
   press("liver");
   std::vector<Pace> paces;

@@ -158,9 +158,14 @@ TEST(MarksModel, ATextThatStaysTheSameIsNoChange) {
   QObject::connect(&marks, &MarksModel::changed, [&changes] { ++changes; });
   kept.put("Scene", "{}");
   EXPECT_EQ(changes, 0);
+  marks.edit(QStringLiteral("Nothing"), [](Marks&) {});
+  EXPECT_EQ(kept.steps.size(), 1U) << "what changes nothing is no step";
+  EXPECT_EQ(changes, 0);
   kept.undo();
   EXPECT_EQ(changes, 1);
   EXPECT_TRUE(marks.marks().points.empty());
+  kept.put("Scene", "{ }");
+  EXPECT_EQ(changes, 1);
 }
 
 TEST(MarksModel, ANewPlaceInThePipelineGetsThemToo) {

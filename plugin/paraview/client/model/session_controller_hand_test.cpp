@@ -2,14 +2,18 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
+#include <thread>
 #include <variant>
 
+#include "device/safety/safety_filter.h"
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/model/testing/controlled_session.h"
 #include "plugin/paraview/client/words.h"
+#include "plugin/session/session.h"
 
 namespace palpate::plugin {
 namespace {
@@ -86,13 +90,59 @@ TEST_F(ControlledSession, ASimulatedStylusBeginsAtTheStartUnlessItIsFelt) {
   EXPECT_TRUE(is_near(elsewhere));
   session.set_scan(igtl::testing::ball_of_tissue(), {});
   EXPECT_TRUE(comes([&] { return is_near(start); }));
+  // Once alone: a scan that was not announced leaves the hand where it is.
+  ASSERT_TRUE(goes_to(elsewhere));
+  session.set_scan(igtl::testing::ball_of_tissue(), {});
+  polls(5);
+  EXPECT_TRUE(is_near(elsewhere));
   // And no hand that feels is moved.
   session.feel();
   ASSERT_TRUE(comes([this] { return last().feels; }));
-  start = elsewhere;
   session.begin_outside();
   polls(5);
-  EXPECT_FALSE(is_near(elsewhere));
+  EXPECT_TRUE(is_near(elsewhere));
+}
+
+/// Another scan lies elsewhere in the patient, and so does the stylus then.
+TEST_F(ControlledSession, TheHandIsMappedIntoTheScanThatIsFelt) {
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  const glm::dvec3 center{400, -300, 200};
+  session.set_scan(std::make_shared<const io::Volume>(testdata::scan(
+                       testdata::make_sphere(25), testdata::make_geometry({.size = glm::ivec3(60), .center = center}))),
+                   {});
+  ASSERT_TRUE(
+      comes([this] { return last().tick.scene_epoch == session.live().epoch() && last().tick.change_part == 1; }));
+  EXPECT_EQ(last().workspace, session.live().plan()->workspace);
+  EXPECT_LT(glm::distance(last().workspace.center_mm, center), 100);
+}
+
+/// The work that the force was taken for is named until the fault is cleared, and not with the next.
+TEST_F(ControlledSession, TheWorkThatHeldThePanelUpIsNamed) {
+  session.set_clock([](double period_s) {
+    return std::make_unique<testing::UnhurriedClock>(period_s, testing::UnhurriedClock::WithoutHeartbeat::goes_on);
+  });
+  connect_simulated();
+  const auto falls_silent = [this] {
+    session.feel();
+    if (!comes([this] { return last().feels; })) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2600));
+    return comes([this] { return fault_of(last().tick) == device::Fault::commander_silent; });
+  };
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2600));
+  session.note_work("drawing", 2.6);
+  ASSERT_TRUE(comes([this] { return fault_of(last().tick) == device::Fault::commander_silent; }));
+  EXPECT_EQ(last().held_up.toStdString(), "drawing took 2.6 s");
+  std::this_thread::sleep_for(std::chrono::milliseconds(4200));
+  polls(2);
+  EXPECT_EQ(last().held_up.toStdString(), "drawing took 2.6 s") << "as long as the fault is said";
+  session.clear_fault();
+  ASSERT_TRUE(comes([this] { return fault_of(last().tick) == device::Fault::none; }));
+  EXPECT_TRUE(last().held_up.isEmpty());
+  ASSERT_TRUE(falls_silent());
+  EXPECT_TRUE(last().held_up.isEmpty()) << "it is not known what held it up";
 }
 
 /// The panel's button and a place that is pressed at once.

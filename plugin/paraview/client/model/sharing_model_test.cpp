@@ -178,6 +178,14 @@ TEST_F(SharingTest, AMarkWithoutANameGetsOneThatIsFree) {
                .content = igtl::content_of(std::vector<igtl::Point>{{.position = {1, 0, 0}}})});
   ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 2; }));
   EXPECT_EQ(marks.marks().points[1].name, "Mark 2");
+  // The same list again is no step; the one after it tells that it came.
+  const std::size_t steps = kept.steps.size();
+  std::vector<igtl::Point> known{{.name = "Mark 2", .position = {1, 0, 0}}};
+  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(known)});
+  known.push_back({.name = "last", .position = {0, 1, 0}});
+  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(known)});
+  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 3; }));
+  EXPECT_EQ(kept.steps.size(), steps + 1);
 }
 
 /// Such as one of flow, on a scan of one value: nothing changes, and the client learns why.

@@ -24,12 +24,12 @@ class MadeWorld : public ScanWorld {
     loaded_.push_back(std::move(loaded));
     progress_ = std::move(progress);
   }
-  void stop() override {}
+  void stop() override { ++stopped; }
   void load_frame(const io::Series& /*series*/, int frame, const io::Filter& /*filter*/, Loaded loaded) override {
     asked.push_back("frame " + std::to_string(frame));
     frames_.push_back(std::move(loaded));
   }
-  void stop_frames() override {}
+  void stop_frames() override { ++frames_stopped; }
   void show(const SeriesRef& of, int /*frame*/, Made made) override {
     asked.push_back("show " + of.name);
     made_.push_back(std::move(made));
@@ -55,7 +55,7 @@ class MadeWorld : public ScanWorld {
     fetched_.push_back(std::move(fetched));
     progress_ = std::move(progress);
   }
-  void stop_fetching() override {}
+  void stop_fetching() override { ++fetching_stopped; }
   void show_frame(int frame) override {
     asked.push_back("time " + std::to_string(frame));
     time = frame;
@@ -72,6 +72,7 @@ class MadeWorld : public ScanWorld {
   bool remote = false;
   std::string not_adopted;  // why; empty: it is
   int time = 0;
+  int stopped = 0, frames_stopped = 0, fetching_stopped = 0;
   ViewFacts view;
   std::vector<std::string> asked, looked_in;
   // All requests so far, the latest last; a test may also answer an old one.
