@@ -108,6 +108,21 @@ TEST_F(ScanModelFollowed, AFrameOfTheScanBeforeIsNotTakenForTheNext) {
   EXPECT_THAT(world.take_asked(), IsEmpty());
 }
 
+/// The same where a frame of the next scan is loaded, too: an answer is for what was asked, and for nothing else.
+TEST_F(ScanModelFollowed, AFrameOfTheScanBeforeIsNotTakenForOneOfTheNext) {
+  show("1", 5);
+  model.go_to_frame(3);
+  const ScanWorld::Loaded of_the_first = world.frames_.back();
+  show("2", 5);
+  model.go_to_frame(2);
+  world.take_asked();
+  of_the_first(voxels(), {});
+  EXPECT_THAT(world.take_asked(), IsEmpty());
+  EXPECT_EQ(model.shown()->frame, 0);
+  world.frames_.back()(voxels(), {});
+  EXPECT_THAT(world.take_asked(), ElementsAre("time 2"));
+}
+
 TEST_F(ScanModelFollowed, WhatTheViewsShowOtherwiseIsNotFelt) {
   show("1");
   world.view.name = "Reader1";

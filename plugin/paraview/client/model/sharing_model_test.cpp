@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
 
 #include "modes/scene/scene_json.h"
 #include "plugin/openigtlink/names.h"
@@ -206,6 +208,19 @@ TEST_F(SharingTest, WithoutAScanAClientIsToldSo) {
   TestClient client(sharing.port());
   client.send(ball_of_labels("liver", glm::dvec3(0), 20));
   EXPECT_NE(next_status(client, "refused").find("no scan is open yet"), std::string::npos);
+}
+
+/// What shows the number of clients is told when it is another, and not at each look.
+TEST_F(SharingTest, EachClientThatComesOrGoesIsToldOnce) {
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  int changes = 0;
+  QObject::connect(&sharing, &SharingModel::changed, [&changes] { ++changes; });
+  std::optional<TestClient> client(std::in_place, sharing.port());
+  ASSERT_TRUE(comes([&] { return sharing.clients() == 1; }));
+  EXPECT_EQ(changes, 1);
+  client.reset();
+  ASSERT_TRUE(comes([&] { return sharing.clients() == 0; }));
+  EXPECT_EQ(changes, 2);
 }
 
 TEST_F(SharingTest, ATakenPortIsSaidAndTurningOffLetsClientsGo) {
