@@ -1,5 +1,7 @@
 #include "io/interchange/voxel_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -187,6 +189,14 @@ std::vector<std::string> label_format_endings() {
 
 std::vector<std::string> written_endings() {
   return endings_in(&LabelFormat::written);
+}
+
+std::string written_endings_in_words() {
+  return fmt::format("{}", fmt::join(written_endings(), ", "));
+}
+
+void throw_no_known_ending(const fs::path& file) {
+  throw DicomError(say("outline-of-no-known-ending", file.filename().string(), written_endings_in_words()));
 }
 
 std::optional<LabelWriter> writer_of(const fs::path& name) {

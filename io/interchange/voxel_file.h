@@ -95,6 +95,10 @@ std::span<const LabelFormat* const> label_formats();
 std::vector<std::string> label_format_endings();
 /// The endings of all formats that structures are written in.
 std::vector<std::string> written_endings();
+/// The same, separated by commas.
+std::string written_endings_in_words();
+/// Refuses a file whose ending is none of these.
+[[noreturn]] void throw_no_known_ending(const std::filesystem::path& file);
 
 struct LabelWriter {
   const LabelFormat* format = nullptr;

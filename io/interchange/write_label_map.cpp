@@ -205,7 +205,7 @@ void write_label_map(const LabelImage& image, const std::filesystem::path& file,
     throw DicomError(say("slices-lie-unevenly-for-it", file.filename().string()));
   }
   const auto writer = writer_of(file);
-  if (!writer) throw DicomError(say("outline-of-no-known-ending", file.filename().string()));
+  if (!writer) throw_no_known_ending(file);
   write_whole(file, writer->format->bytes(image, writer->ending), existing(options));
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/dicom/series_source.h"
 #include "io/errors.h"
+#include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 
 namespace palpate::io {
@@ -100,7 +101,7 @@ void succeed(const OFCondition& condition) {
 std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geometry, int frame) {
   const SeriesSource* owner = nullptr;
   const SeriesSource::Frame* images = scan.source ? frame_of(*scan.source, frame, owner) : nullptr;
-  if (images == nullptr) throw DicomError(say("outline-has-no-study"));
+  if (images == nullptr) throw DicomError(say("outline-has-no-study", written_endings_in_words()));
   constexpr double same_place_mm = 0.01;
   std::vector<SliceImage> found;
   for (const Vec3& position : geometry.slice_positions) {

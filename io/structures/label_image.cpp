@@ -76,7 +76,7 @@ StructureForm form_of(const std::filesystem::path& file, bool rtstruct) {
   if (has_ending(file, ".dcm")) return rtstruct ? StructureForm::contours : StructureForm::segmentation;
   if (rtstruct) throw DicomError(say("contours-are-dicom-alone", file.filename().string()));
   if (writer_of(file)) return StructureForm::label_map;
-  throw DicomError(say("outline-of-no-known-ending", file.filename().string()));
+  throw_no_known_ending(file);
 }
 
 }  // namespace palpate::io

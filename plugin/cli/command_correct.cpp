@@ -116,7 +116,7 @@ void add_correct(CLI::App& program) {
       "correct", "Applies edits to a structure's outline, and writes the corrected outline on the scan's grid");
   command->footer(
       "The ending of OUT chooses the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct; label maps are " +
-      fmt::format("{}.\n", fmt::join(io::written_endings(), ", ")) +
+      io::written_endings_in_words() + ".\n" +
       "A SEG or RTSTRUCT goes into the scan's study, and refers to its images and to the outline that was corrected.\n"
       "EDITS: {\"version\": 1, \"edits\": [...]}, applied in their order, in patient space (LPS, mm):\n"
       "  {\"type\": \"trace\", \"points_mm\": [[x, y, z], ...], \"known_to_mm\": [...], \"reach_mm\": 8}\n"

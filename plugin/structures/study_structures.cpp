@@ -87,6 +87,12 @@ Text unfit_for(io::Structure& structure, const io::Volume& scan) {
   return {};
 }
 
+/// Whatever has its margin outside a structure.
+bool keeps_out(const modes::Mode& mode) {
+  const modes::ModeType* const type = modes::find_mode_type(mode.type);
+  return type && contains(type->keys, modes::Key::margin) && type->margin_side > 0;
+}
+
 }  // namespace
 
 std::string hashed_id(const std::string& id) {
@@ -164,7 +170,7 @@ std::optional<double> keep_out_of(const modes::Scene& scene, const io::Structure
   for (const modes::SceneStructure& named : scene.structures) {
     if (!is_same(named, structure)) continue;
     for (const modes::Mode& mode : scene.modes) {
-      if (!mode.enabled || mode.type != "keep_out" || mode.structure != named.name) continue;
+      if (!mode.enabled || !keeps_out(mode) || mode.structure != named.name) continue;
       widest = std::max(widest.value_or(0), mode.margin_mm);
     }
   }
