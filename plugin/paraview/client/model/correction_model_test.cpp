@@ -196,5 +196,28 @@ TEST_F(CorrectingSlowly, UndoLeavesTheContoursThatDefineAStructure) {
   EXPECT_THAT(model.edits(), ::testing::SizeIs(1));
 }
 
+/// What shows the model is told of what changes, and of nothing else.
+TEST_F(Correcting, EachChangeOfAToolIsToldOnce) {
+  model.begin(liver, {});
+  int changes = 0;
+  QObject::connect(&model, &CorrectionModel::changed, [&changes] { ++changes; });
+  const auto count = [&changes](const auto& change) {
+    changes = 0;
+    change();
+    return changes;
+  };
+  for (const bool before : {true, false}) {
+    EXPECT_EQ(count([&] { model.show_before(before); }), 1);
+    EXPECT_EQ(model.shows_before(), before);
+    EXPECT_EQ(count([&] { model.show_before(before); }), 0);
+  }
+  for (const Tool tool : {Tool::add, Tool::remove, Tool::trace}) {
+    EXPECT_EQ(count([&] { model.set_tool(tool); }), 1);
+    EXPECT_EQ(count([&] { model.set_tool(tool); }), 0);
+  }
+  EXPECT_EQ(count([&] { model.set_radius_mm(7); }), 1);
+  EXPECT_EQ(count([&] { model.set_radius_mm(7); }), 0);
+}
+
 }  // namespace
 }  // namespace palpate::plugin

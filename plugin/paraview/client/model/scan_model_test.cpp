@@ -196,6 +196,13 @@ TEST_F(ScanModelFollowed, AServersFrameThatWasGivenUpIsNotTaken) {
   world.fetched_.back()({.volume = voxels(), .of = {}, .frame = 2});
   EXPECT_EQ(model.shown()->frame, 0);
   EXPECT_EQ(take_reported(), QStringList());
+  // One that cannot be had is told, and the one before stays felt.
+  model.follow_time();
+  world.fetched_.back()({.volume = {}, .said = QStringLiteral("no memory"), .of = {}});
+  EXPECT_EQ(model.message().text, QStringLiteral("no memory"));
+  EXPECT_TRUE(model.message().problem);
+  EXPECT_FALSE(std::get<in_views::Shown>(model.in_views()).coming);
+  EXPECT_EQ(model.shown()->frame, 0);
 }
 
 /// Its voxels are read by one program at a time, so they are let go before the next folder is looked through.
