@@ -66,7 +66,7 @@ inline constexpr MessageRow styluses[] = {
       {"name-the-arm-as-preset", "name the arm as \"preset\" in its settings file: {}"},
       {"not-a-setting", "'{}' is not a setting"},
       {"axis-signs-are-1-or-1", "'{}' is not three times 1 or -1"},
-      {"not-a-usable-setting", "'{}' is not what it should be: {}"},
+      {"not-a-usable-setting", "'{}' has an invalid value: {}"},
       {"not-a-json-object", "it is not a JSON object"},
       {"settings-refused", "{}: {}: {}"}}},
     {"a geometry that no arm has",
@@ -120,7 +120,7 @@ inline constexpr MessageRow styluses[] = {
      {{"force-dimension-not-found",
        "Force Dimension{}: not found; check its plug, its power and the rights to it (udev, idVendor 1451): {}"},
       {"force-dimension-the-arm-has-no-home",
-       "Force Dimension: the arm has no home yet, and to find it it moves by itself; keep hands off it, then allow it "
+       "Force Dimension: the arm is not homed yet, and homing moves it by itself; keep hands off it, then allow it "
        "in its settings file: may_home, true"},
       {"force-dimension-the-arm-did-not-find",
        "Force Dimension: the arm did not find its home: {}; free its way and try again"},

@@ -23,12 +23,12 @@ Specification falcon_specification(const FalconSettings& settings);
 std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
                                            const LinkStylusOptions& options);
 
-/// Brings the serial chip and the firmware up: run mode if firmware is loaded, else the upload. Throws
+/// Starts the serial chip, then the firmware: in run mode if it is loaded, else it uploads it first. Throws
 /// std::runtime_error.
 void connect_falcon(FalconLink& link, const std::string& firmware_file);
 
-/// For the guardian: sends zeros until two of them were answered. A chip that was plugged in again has forgotten its
-/// speed, which is set first. False if no answer comes.
+/// For the guardian: sends zeros until two of them were answered. The baud rate is set first, since a chip that was
+/// plugged in again has lost it. False if no answer comes.
 bool zero_falcon(FalconLink& link) noexcept;
 
 class FalconProtocol final : public Protocol {

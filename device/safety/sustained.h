@@ -6,12 +6,12 @@
 namespace palpate::device {
 
 struct SustainedLimit {
-  double continuous = 0;  ///< A or N that it can bear without end; 0: not known, and nothing is limited
+  double continuous = 0;  ///< continuous current (A) or force (N) of the motor; 0: unknown, no limit
   double peak = 0;        ///< the same unit: what it can bear for `time`
   double time = 4;        ///< s
 };
 
-/// The heat of one motor beyond what it loses at its continuous value.
+/// The heat of one motor above its steady state at the continuous value: the integral of I²t.
 class SustainedLoad {
  public:
   /// The largest current or force allowed now. Falls smoothly to the continuous one as the heat nears its limit.

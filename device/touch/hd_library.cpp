@@ -41,10 +41,10 @@ HdLibrary::HdLibrary() : library("3D Systems Touch", files(), advice) {
   library.find("hdUnschedule", unschedule);
 }
 
-hd::Gravity hd::gravity_of(unsigned code) noexcept {
-  if (code == success) return Gravity::none;
-  if (code == exceeded_force || code == force_impulse) return Gravity::force_clamped;
-  return (code & ~0xffU) == warm_motors ? Gravity::force_taken_away : Gravity::device_failed;
+hd::Severity hd::severity_of(unsigned code) noexcept {
+  if (code == success) return Severity::none;
+  if (code == exceeded_force || code == force_impulse) return Severity::force_clamped;
+  return (code & ~0xffU) == warm_motors ? Severity::force_taken_away : Severity::device_failed;
 }
 
 unsigned HdLibrary::drain_errors() const noexcept {
@@ -53,7 +53,7 @@ unsigned HdLibrary::drain_errors() const noexcept {
   for (int i = 0; i < most; ++i) {
     const unsigned code = get_error().code;
     if (code == hd::success) break;
-    if (hd::gravity_of(code) > hd::gravity_of(gravest)) gravest = code;
+    if (hd::severity_of(code) > hd::severity_of(gravest)) gravest = code;
   }
   return gravest;
 }
@@ -67,7 +67,7 @@ unsigned HdLibrary::open_device(const std::string& name, unsigned& error) const 
   drain_errors();  // those of an earlier device are not this one's
   const unsigned device = init_device(name.empty() ? nullptr : name.c_str());
   error = drain_errors();
-  const bool has_failed = hd::gravity_of(error) == hd::Gravity::device_failed;
+  const bool has_failed = hd::severity_of(error) == hd::Severity::device_failed;
   if (device != hd::invalid_device && has_failed) disable_device(device);
   return has_failed ? hd::invalid_device : device;
 }

@@ -31,14 +31,14 @@ constexpr unsigned encoder_reset = 1, automatic = 2, inkwell = 4;
 constexpr unsigned callback_continue = 1;
 constexpr unsigned success = 0, warm_motors = 0x200, exceeded_force = 0x201, force_impulse = 0x202;
 
-/// How grave an error is. 0x2xx are of the force alone: the device is there and takes commands.
-enum class Gravity : unsigned char { none, force_clamped, force_taken_away, device_failed };
-Gravity gravity_of(unsigned code) noexcept;
+/// The severity of an error. Codes 0x2xx concern the force alone: the device still answers.
+enum class Severity : unsigned char { none, force_clamped, force_taken_away, device_failed };
+Severity severity_of(unsigned code) noexcept;
 
 }  // namespace hd
 
 struct HdLibrary {
-  /// Throws std::runtime_error: SharedLibrary.
+  /// Throws std::runtime_error if the library or a function is missing (SharedLibrary).
   HdLibrary();
 
   SharedLibrary library;
@@ -66,8 +66,8 @@ struct HdLibrary {
   /// equally grave ones the newest; hd::success where there is none.
   unsigned drain_errors() const noexcept;
   std::string words_for(unsigned code) const;
-  /// Initializes the device of this name; empty: the default one. Returns hd::invalid_device and says why in `error`
-  /// where it failed, and then leaves nothing initialized. Warnings of its force are no failure.
+  /// Initializes the device of this name; empty: the default one. If that fails, returns hd::invalid_device, puts
+  /// the code in `error`, and leaves nothing initialized. Warnings about the force (0x2xx) are no failure.
   unsigned open_device(const std::string& name, unsigned& error) const noexcept;
 };
 

@@ -58,7 +58,7 @@ TouchDriver::~TouchDriver() {
 
 void TouchDriver::throw_error(const Text& what) {
   const unsigned error = hd_->drain_errors();
-  if (hd::gravity_of(error) != hd::Gravity::device_failed) return;
+  if (hd::severity_of(error) != hd::Severity::device_failed) return;
   const std::string reason = hd_->words_for(error);
   disconnect();
   throw Refusal(say("touch-refuses", what, reason));
@@ -218,15 +218,15 @@ void TouchDriver::take(double timeout) noexcept {
 
 void TouchDriver::follow(const Sample& sample) noexcept {
   if (status_.state == State::fault || lost_) return;
-  switch (hd::gravity_of(sample.error)) {
-    case hd::Gravity::none:
-    case hd::Gravity::force_clamped:
+  switch (hd::severity_of(sample.error)) {
+    case hd::Severity::none:
+    case hd::Severity::force_clamped:
       break;
-    case hd::Gravity::force_taken_away:
+    case hd::Severity::force_taken_away:
       status_.state = State::fault;
       status_.fault = LinkFault::own_safety;
       return;
-    case hd::Gravity::device_failed:
+    case hd::Severity::device_failed:
       lost_ = true;
       return;
   }
@@ -297,7 +297,7 @@ struct Zeros {
     zeros.hd.set_doubles(hd::current_force, &zero.x);
     zeros.hd.end_frame(zeros.device);
     // Motors that are warm take a zero as others do.
-    if (hd::gravity_of(zeros.hd.drain_errors()) != hd::Gravity::device_failed) ++zeros.sent;
+    if (hd::severity_of(zeros.hd.drain_errors()) != hd::Severity::device_failed) ++zeros.sent;
     return hd::callback_continue;
   }
 };

@@ -24,7 +24,7 @@ struct Sent {
 
 /// Sends the files in their own encoding. Throws ArchiveError if there is no association or it breaks, and Cancelled if
 /// `progress` returns false. `progress` gets the number of files done, before each file and once a second while the
-/// archive does not answer. Files that the archive has accepted by then stay there.
+/// archive does not answer. Files that it has accepted before stay in the archive.
 Sent send(const Archive& archive, const std::vector<std::filesystem::path>& files,
           const std::function<bool(std::size_t done)>& progress = {});
 

@@ -8,7 +8,8 @@ namespace palpate::io::internal {
 /// files and attributes) and checks its data dictionary. Throws DicomError if the dictionary is missing.
 void start_dcmtk();
 
-/// Throws DicomError for a dictionary without entries: implicit-VR attributes would lose their types without an error.
+/// Throws DicomError for a dictionary without entries: with it DCMTK would read attributes of implicit VR without their
+/// types, and report no error.
 void check_dictionary(const DcmDataDictionary& dictionary, bool loaded);
 
 }  // namespace palpate::io::internal

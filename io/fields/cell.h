@@ -8,7 +8,7 @@ namespace palpate::io::internal {
 
 struct Cell {
   glm::ivec3 first{0};  ///< lowest corner
-  glm::ivec3 size{0};   ///< corners along each axis: 2, or 1 in a volume of one voxel there
+  glm::ivec3 size{0};   ///< corners along each axis: 2, or 1 along an axis of one voxel
   Vec3 fraction{0};     ///< 0 ... 1 from the lowest corner to the next
 
   /// Weight of the corner first + (i, j, k); those of all corners add up to 1.
@@ -18,8 +18,8 @@ struct Cell {
   }
 };
 
-/// The cell that holds a continuous index. False if nothing can be sampled there: beyond the hull of the voxel centers,
-/// between slices where some are missing, or with padding that would have a weight.
+/// The cell that holds a continuous index. False if nothing can be sampled there: outside the box of the voxel
+/// centers, in a gap of missing slices, or where a corner whose weight is not zero is padding.
 bool find_cell(const Volume& volume, const Vec3& index, Cell& cell) noexcept;
 
 /// The rescaled value in a cell.

@@ -7,8 +7,8 @@
 namespace palpate::io {
 
 struct ComparedOutline {
-  SignedDistance distance;  ///< true up to `true_to_mm` from the surface; farther away any larger value
-  StructureBox box;         ///< contains it, or nearly so
+  SignedDistance distance;  ///< exact up to `true_to_mm` from the surface; farther away any value beyond that
+  StructureBox box;         ///< contains it, but for small parts perhaps
   double true_to_mm = 4;
 };
 

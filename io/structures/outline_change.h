@@ -20,8 +20,8 @@ struct OutlineChange {
   Vec3 largest_at_mm{0};  ///< the point with that distance
 };
 
-/// Compares within a box, on a lattice of 1 mm, or a coarser one if the box is large. Both fields must be true
-/// distances as far as the edge has moved; farther away the largest change is that of their coarse lattice.
+/// Compares within a box, on a lattice of 1 mm, or a coarser one if the box is large. Both fields must reach as far as
+/// the edge has moved; beyond their reach the largest change is read from their coarse lattice.
 OutlineChange outline_change(const DistanceField& before, const DistanceField& after, const StructureBox& box);
 
 }  // namespace palpate::io

@@ -26,7 +26,7 @@ bool is_of_head(const io::Volume& volume);
 /// A starting scene in the list for a scan.
 struct OfferedScene {
   std::string name;
-  std::string made_for;  ///< empty: such scans; else the scans that it was made for, in words
+  std::string made_for;  ///< empty if it suits the scan; else the scans that it was made for, in words
 };
 /// All starting scenes: `first`, then the others for this modality, then those for other scans.
 std::vector<OfferedScene> offered_scenes(const std::string& first, const std::string& modality, bool has_vectors);

@@ -14,7 +14,7 @@ namespace palpate::plugin {
 RecordingHeader header_for(const modes::Scene& scene, const device::Specification& stylus, const std::string& scan_hash,
                            double seed = 0);
 
-/// The record of the first scene that is felt on a scan. It holds no path.
+/// The record of the first scene that is felt on a scan. Paths of files are left out.
 SceneRecord record_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus,
                       const std::string& scan_hash);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Whether touch helps a simulated hand to correct outlines of real organs (touch_study.h has the phantom). An organ's
-/// own outline counts as the truth. It is falsified around places where it agrees with an edge of the scan.
+/// own outline counts as the truth. Copies of it get errors at places where it agrees with an edge of the scan.
 
 #include <filesystem>
 #include <memory>

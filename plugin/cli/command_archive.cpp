@@ -95,20 +95,25 @@ void empty_archive_folder() {
 }
 
 void add_archive_add(CLI::App& command, const std::shared_ptr<ArchiveOptions>& options) {
-  CLI::App* add = command.add_subcommand("add", "Enters an archive, or changes one of the same name");
+  CLI::App* add =
+      command.add_subcommand("add", "Adds an archive; if there is one of that name, its settings are replaced");
   io::Archive& archive = options->archive;
   add->add_option("NAME", archive.name, "the name of the archive in this program")->required();
   add->add_option("--host", archive.host, "its machine's name or address")->required();
   add->add_option("--port", archive.port, "its DICOM port")->required();
   add->add_option("--called", archive.called, "its AE title")->required();
   add->add_option("--calling", archive.calling, "our AE title, as the archive knows it")->required();
-  add->add_flag("--get", archive.uses_get,
-                "fetch with C-GET, if the archive offers it; without it the archive connects to this machine (C-MOVE)");
+  add->add_flag(
+      "--get", archive.uses_get,
+      "fetch with C-GET, which the archive must support; by default the archive connects to this machine (C-MOVE)");
   add->add_option("--listen", archive.listen_port, "our port, to which the archive sends (C-MOVE)")
       ->capture_default_str();
-  add->add_option("--listen-address", archive.listen_address, "our IPv4 address for that port; 0.0.0.0: every address")
+  add->add_option("--listen-address", archive.listen_address,
+                  "our IPv4 address to listen on for C-MOVE; 0.0.0.0: every address")
       ->capture_default_str();
-  add->add_option("--wait", archive.silence_s, "give up if it is silent for so many seconds")->capture_default_str();
+  add->add_option("--wait", archive.silence_s,
+                  "timeout in seconds: give up if the archive does not answer for this long")
+      ->capture_default_str();
   add->add_option("--tls-ca", archive.tls.authorities,
                   "use TLS: the certificate (PEM) of the authority that signed the archive's certificate");
   add->add_option("--tls-certificate", archive.tls.certificate,

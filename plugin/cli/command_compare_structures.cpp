@@ -95,7 +95,7 @@ void add_compare_structures(CLI::App& structures) {
       structures.add_subcommand("compare", "Measures how far apart two outlines are; their grids may differ");
   command->footer(
       "A, B, C: SEG, RTSTRUCT or label map; add :NUMBER or :NAME if it holds several structures.\n"
-      "The smooth surfaces that are felt are compared. The center of each voxel\n"
+      "Compares the smooth surfaces that are felt, not the voxels. The center of each voxel\n"
       "of a structure lies inside its surface, and the centers of all other voxels lie outside.\n"
       "volume_mm3     of A and of B, as `palpate structures` lists it\n"
       "dice           twice the volume that both share, over the sum of both\n"

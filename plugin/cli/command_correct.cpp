@@ -115,19 +115,21 @@ void add_correct(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "correct", "Applies edits to a structure's outline, and writes the corrected outline on the scan's grid");
   command->footer(
-      "The ending of OUT chooses the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct; label maps are " +
+      "The file name extension of OUT selects the format: .dcm is a DICOM SEG, or an RTSTRUCT with --rtstruct; label "
+      "maps are " +
       io::written_endings_in_words() + ".\n" +
       "A SEG or RTSTRUCT goes into the scan's study, and refers to its images and to the outline that was corrected.\n"
       "EDITS: {\"version\": 1, \"edits\": [...]}, applied in their order, in patient space (LPS, mm):\n"
       "  {\"type\": \"trace\", \"points_mm\": [[x, y, z], ...], \"known_to_mm\": [...], \"reach_mm\": 8}\n"
       "  {\"type\": \"add\" or \"remove\", \"path_mm\": [[x, y, z], ...], \"radius_mm\": 3}\n"
       "  {\"type\": \"scan_edge\", \"center_mm\": [x, y, z], \"radius_mm\": 10, \"most_mm\": 3}\n"
-      "  {\"type\": \"contours\", \"loops_mm\": [[[x, y, z], ...], ...]}: a new structure; the first edit, without "
+      "  {\"type\": \"contours\", \"loops_mm\": [[[x, y, z], ...], ...]}: a new structure: it must be the first edit, "
+      "without "
       "--structure");
   add_series_option(*command, options->series);
-  command->add_option(
-      "--structure", options->structure,
-      "The structure to correct: FILE or FILE:SEGMENT; without it the edits make a new one from contours");
+  command->add_option("--structure", options->structure,
+                      "The structure to correct: FILE or FILE:SEGMENT; without --structure the first edit makes a new "
+                      "one from contours");
   command->add_option("--name", options->name, "Name of a structure made from contours (default: the name of OUT)")
       ->excludes("--structure");
   command->add_option("--edits", options->edits, "A JSON file with the edits (below)")->required();

@@ -136,8 +136,8 @@ void add_devices(CLI::App& program) {
   const auto check = std::make_shared<DeviceCheck>();
   CLI::Option* const which = command->add_option(
       "--check", check->stylus.device,
-      "Ask first, then push each axis of this stylus (KIND or KIND@ADDRESS) with 0.2 N, say what the hand should\n"
-      "feel, and write a settings file");
+      "Check the axes of this stylus (KIND or KIND@ADDRESS): say what the hand should feel, ask whether to push, push\n"
+      "with 0.2 N, and ask what was felt. Writes a settings file");
   command
       ->add_option("--firmware", check->stylus.firmware, "Falcon: Novint's firmware file, if the device has none yet")
       ->needs(which);
@@ -146,17 +146,16 @@ void add_devices(CLI::App& program) {
       ->add_option("-o,--output", check->output,
                    "The file for its settings (default: KIND-settings.json in this folder)")
       ->needs(which);
-  command->add_flag("--yes", check->yes, "Ask no questions: take the direction of each push from the pose")
+  command->add_flag("--yes", check->yes, "Ask no questions: measure the direction of each push by the pose")
       ->needs(which);
   const auto kind = std::make_shared<std::string>();
-  CLI::Option* const faults =
-      command
-          ->add_option(
-              "--faults", *kind,
-              "Play each fault against the fake of each device, or of this one (KIND): prints the force that is left,\n"
-              "the time until it is zero, and the largest step")
-          ->expected(0, 1)
-          ->excludes(which);
+  CLI::Option* const faults = command
+                                  ->add_option("--faults", *kind,
+                                               "Simulate each fault on an emulated device of each kind, or of KIND "
+                                               "alone: prints the force that is left,\n"
+                                               "the time until it is zero, and the largest step")
+                                  ->expected(0, 1)
+                                  ->excludes(which);
   command->callback([json, check, which, kind, faults] {
     if (faults->count() > 0) play_faults(*kind, *json);
     if (which->count() > 0) {

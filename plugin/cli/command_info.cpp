@@ -257,7 +257,7 @@ void run(const InfoOptions& options) {
 
 void add_info(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("info", "Lists series with their geometry and values, and the files that were set apart");
+      program.add_subcommand("info", "Lists series with their geometry and values, and the files that were skipped");
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("PATH", options->paths, "Folders (with subfolders), files, and packed studies (.zip, .tar.gz)")
       ->required();

@@ -98,9 +98,9 @@ void add_marks(CLI::App& program) {
 
 void add_export(CLI::App& program) {
   const auto options = std::make_shared<MarksOptions>();
-  CLI::App* command =
-      add_marks_command(program, "export",
-                        "Writes a recording's marks for the scan's study: a DICOM SR (TID 1500) and pictures", options);
+  CLI::App* command = add_marks_command(
+      program, "export", "Writes a recording's marks as DICOM files of the scan's study: an SR (TID 1500) and pictures",
+      options);
   command->add_option("-o,--output", options->output, "a new or empty folder")->required();
   command->callback([options] { run_export(*options); });
 }

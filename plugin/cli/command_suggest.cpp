@@ -134,9 +134,10 @@ void add_suggest(CLI::App& program) {
                              "the scan, and the structures of the study.");
   add_series_option(*command, options->series);
   command
-      ->add_option("--structures", options->structures,
-                   "more files and folders with structures (SEG, RTSTRUCT, label maps); those under SERIES are always "
-                   "searched. The scene names the structures that can be felt")
+      ->add_option(
+          "--structures", options->structures,
+          "more files and folders to search for structures (SEG, RTSTRUCT, label maps); SERIES itself is always "
+          "searched. The scene names the structures that can be felt")
       ->check(CLI::ExistingPath);
   command->add_option("-o,--output", options->output,
                       "write the scene to this file and a picture beside it (default: print the scene)");

@@ -48,7 +48,7 @@ std::string in_words(const io::DoubtfulPlace& place) {
     case io::DoubtKind::no_edge:
       return "the scan has no edge here, and the tissue is alike on both sides";
     case io::DoubtKind::island:
-      return fmt::format("a small part of its own, {:.1f} mm deep", std::abs(place.largest_mm));
+      return fmt::format("a small separate part, {:.1f} mm deep", std::abs(place.largest_mm));
     case io::DoubtKind::hole:
       return fmt::format("a small hole, {:.1f} mm deep", std::abs(place.largest_mm));
   }
@@ -95,10 +95,10 @@ void add_suspects(CLI::App& program) {
       program.add_subcommand("suspects", "Lists the places at which a structure's outline is doubtful on a scan");
   command->footer(
       "Every 2 mm the scan's own edge is searched along the outline's normal, up to 6 mm away.\n"
-      "kind           edge: the scan's edge is more than half a voxel, and more than twice its uncertainty, from the "
-      "outline\n"
+      "kind           edge: from the outline to the scan's edge it is more than half a voxel, and more than twice "
+      "known_to_mm\n"
       "               no_edge: the scan has no edge over more than 1 cm2, and the tissue is alike on both sides;\n"
-      "               looked for only if a third of the outline has an edge\n"
+      "               reported only if a third of the outline has an edge\n"
       "               island, hole: smaller than a tenth of the largest part\n"
       "position_mm    a point on the outline, in patient space (LPS)\n"
       "normal         the outline's normal at that point, outwards\n"
@@ -106,7 +106,8 @@ void add_suspects(CLI::App& program) {
       "area\n"
       "largest_mm     largest distance to the scan's edge; island, hole: their depth\n"
       "known_to_mm    uncertainty of the scan's edge (two standard deviations)\n"
-      "The list is ordered by area times distance. no_edge has no distance: 0 is printed, and it is ordered as 6 mm.");
+      "The list is ordered by area times distance. no_edge has no distance: 0 is printed, and 6 mm counts for the "
+      "order.");
   add_series_option(*command, options->series);
   command->add_option("--structure", options->structure, "FILE or FILE:SEGMENT")->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");

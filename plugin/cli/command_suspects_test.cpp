@@ -78,7 +78,7 @@ TEST(CommandSuspects, AHoleAndAnIslandAreListed) {
   };
   const Outcome outcome = suspects(spoilt, "parts", "");
   EXPECT_THAT(outcome.output, ::testing::ContainsRegex("hole: a small hole, [34][.][0-9] mm deep"));
-  EXPECT_THAT(outcome.output, ::testing::ContainsRegex("island: a small part of its own, [23][.][0-9] mm deep"));
+  EXPECT_THAT(outcome.output, ::testing::ContainsRegex("island: a small separate part, [23][.][0-9] mm deep"));
 }
 
 TEST(CommandSuspects, IsRefusedInWords) {

@@ -77,7 +77,7 @@ std::vector<NamedWindow> windows_for(const Values& values) {
         windows.push_back({"All values", from_to(0, values.high)});  // some say -1e38 where nothing was measured
         return windows;
       }
-      windows.push_back({"Middle 98 %", from_to(low, high)});
+      windows.push_back({"1st to 99th percentile", from_to(low, high)});
     }
     windows.push_back({"All values", from_to(values.low, values.high)});
   }

@@ -65,9 +65,9 @@ void PanelParts::ask_picture() {
       ask_file_to_write(&dock, tr("Save a picture of the views"), tr("Pictures (*.png)"), QStringLiteral("png"));
   if (file.isEmpty()) return;
   if (!save_picture(*marked, file)) {
-    tell_not_written(
-        &dock, tr("Save a picture of the views"),
-        words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString())));
+    tell_not_written(&dock, tr("Save a picture of the views"),
+                     words(say("panel-cannot-write", file.toStdString(),
+                               tr("the folder does not exist, or you may not write to it").toStdString())));
   }
 }
 

@@ -38,7 +38,7 @@ UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& win
       window,
       [this] { return may_lose(work_.of_program(), tr("ParaView is about to end."), [this] { work_.let_all_go(); }); },
       [this] {
-        return may_lose(work_.of_program(), tr("All that is open is about to go."), [this] { work_.let_all_go(); });
+        return may_lose(work_.of_program(), tr("This closes everything that is open."), [this] { work_.let_all_go(); });
       },
       this);
 }
@@ -59,7 +59,8 @@ bool UnsavedGuard::may_lose(const Unsaved& work, const QString& before, const st
 }
 
 QString UnsavedGuard::not_written(const QString& file) {
-  return words(say("panel-cannot-write", file.toStdString(), tr("no such folder, or no right to it").toStdString()));
+  return words(say("panel-cannot-write", file.toStdString(),
+                   tr("the folder does not exist, or you may not write to it").toStdString()));
 }
 
 bool UnsavedGuard::save_state() {

@@ -91,7 +91,7 @@
         <translation>Eintragen…</translation>
     </message>
     <message>
-        <source>Enters an archive, or changes the one of that name</source>
+        <source>Adds an archive, or changes the settings of the one of that name</source>
         <translation>Trägt ein Archiv ein oder ändert das mit diesem Namen</translation>
     </message>
     <message>
@@ -99,7 +99,7 @@
         <translation>Holen und öffnen</translation>
     </message>
     <message>
-        <source>Fetches the marked series, or the whole study. A double click does the same.</source>
+        <source>Fetches the selected series, or the whole study. A double click does the same.</source>
         <translation>Die markierte Serie oder die ganze Studie. Ein Doppelklick tut dasselbe.</translation>
     </message>
     <message>
@@ -166,7 +166,7 @@
         <translation> N</translation>
     </message>
     <message>
-        <source>The force that it resists with before the stylus goes through</source>
+        <source>The force at which the stylus breaks through this boundary</source>
         <translation>Die Kraft, mit der sie widersteht, bevor der Stift hindurchgeht</translation>
     </message>
     <message>
@@ -209,7 +209,7 @@
         <translation>Eine Ansicht</translation>
     </message>
     <message>
-        <source>One-up: the marked view alone. A double click in a view does the same.</source>
+        <source>One-up: the active view alone. A double click in a view does the same.</source>
         <translation>Eine Ansicht: nur die markierte Ansicht. Ein Doppelklick in eine Ansicht tut dasselbe.</translation>
     </message>
     <message>
@@ -331,19 +331,19 @@
 <context>
     <name>CorrectBox</name>
     <message>
-        <source>the scan&apos;s edge lies %1 mm outside, known to ±%2 mm</source>
-        <translation>die Kante der Aufnahme liegt %1 mm außerhalb, auf ±%2 mm bekannt</translation>
+        <source>the scan&apos;s edge lies up to %1 mm outside the outline (uncertainty ±%2 mm)</source>
+        <translation>die Kante der Aufnahme liegt bis zu %1 mm außerhalb des Umrisses (auf ±%2 mm bekannt)</translation>
     </message>
     <message>
-        <source>the scan&apos;s edge lies %1 mm inside, known to ±%2 mm</source>
-        <translation>die Kante der Aufnahme liegt %1 mm innerhalb, auf ±%2 mm bekannt</translation>
+        <source>the scan&apos;s edge lies up to %1 mm inside the outline (uncertainty ±%2 mm)</source>
+        <translation>die Kante der Aufnahme liegt bis zu %1 mm innerhalb des Umrisses (auf ±%2 mm bekannt)</translation>
     </message>
     <message>
         <source>no edge in the scan: the tissue is the same on both sides</source>
         <translation>keine Kante in der Aufnahme: beiderseits dasselbe Gewebe</translation>
     </message>
     <message>
-        <source>a small part of its own</source>
+        <source>a small separate part</source>
         <translation>ein kleiner, getrennter Teil</translation>
     </message>
     <message>
@@ -427,7 +427,7 @@
         <translation>Vorher</translation>
     </message>
     <message>
-        <source>Shows the outline of the file while it is pressed; or B in a view</source>
+        <source>While this button, or the key B in a view, is pressed, the outline of the file is shown</source>
         <translation>Zeigt den Umriss der Datei, solange gedrückt wird; oder B in einer Ansicht</translation>
     </message>
     <message>
@@ -459,7 +459,7 @@
         <translation>korrigiert: %1</translation>
     </message>
     <message>
-        <source>left: %1</source>
+        <source>kept: %1</source>
         <translation>so gelassen: %1</translation>
     </message>
     <message>
@@ -487,11 +487,11 @@
         <translation>Der Stift wird in der sagittalen Schicht gehalten</translation>
     </message>
     <message>
-        <source>Drag on a slice along the right edge: the outline goes there. Or hold M while the stylus feels it. In the volume view drag over the outline: it goes to the scan&apos;s own edge there.</source>
-        <translation>In einer Schicht den richtigen Rand nachziehen: Der Umriss folgt. Oder M halten, während der Stift den Rand fühlt. In der Volumenansicht über den Umriss ziehen: Er geht dort zur Kante der Aufnahme.</translation>
+        <source>Drag along the true edge in a slice: the outline moves to your line. Or hold M while the stylus touches the edge. In the volume view drag over the outline: there it moves to the scan&apos;s own edge.</source>
+        <translation>In einer Schicht den wahren Rand nachziehen: Der Umriss folgt. Oder M halten, während der Stift den Rand fühlt. In der Volumenansicht über den Umriss ziehen: Er geht dort zur Kante der Aufnahme.</translation>
     </message>
     <message>
-        <source>The stylus stays in the slice of the marked view while it traces. Hold F in a view to free it.</source>
+        <source>The stylus stays in the slice of the active view while it traces. Hold F in a view to free it.</source>
         <translation>Der Stift bleibt beim Nachziehen in der Schicht der markierten Ansicht. F in einer Ansicht halten, um ihn freizugeben.</translation>
     </message>
     <message>
@@ -546,8 +546,8 @@
         <translation>In der Schicht halten</translation>
     </message>
     <message>
-        <source>Hold in no slice</source>
-        <translation>In keiner Schicht halten</translation>
+        <source>Release from the slice</source>
+        <translation>Aus der Schicht lassen</translation>
     </message>
 </context>
 <context>
@@ -564,11 +564,11 @@
 <context>
     <name>CurveProfile</name>
     <message>
-        <source>The force along a line, as it would be felt now; dashed: before the curve was dragged. Rest with the pointer on a boundary in a slice, touch one, or pick two points in Force profile.</source>
+        <source>The force along a line in the present scene. The dashed curve shows it before the curve was dragged. Hold the pointer still over a boundary in a slice, touch a boundary, or pick two points in Force profile.</source>
         <translation>Die Kraft längs einer Linie, wie sie jetzt zu fühlen wäre; gestrichelt: bevor die Kurve gezogen wurde. Den Zeiger in einer Schicht auf einer Grenze ruhen lassen, eine berühren oder im Kraftprofil zwei Punkte wählen.</translation>
     </message>
     <message>
-        <source>Rest with the pointer on a boundary in a slice: the force across it is drawn here.</source>
+        <source>Hold the pointer still over a boundary in a slice: the force across it is drawn here.</source>
         <translation>Den Zeiger in einer Schicht auf einer Grenze ruhen lassen: Die Kraft quer dazu wird hier gezeichnet.</translation>
     </message>
     <message>
@@ -627,8 +627,8 @@
         <translation>Faktor</translation>
     </message>
     <message>
-        <source>Shape of the strength…</source>
-        <translation>Form der Stärke…</translation>
+        <source>Preset curve…</source>
+        <translation>Vorlage der Kurve…</translation>
     </message>
     <message>
         <source>Curve of %1</source>
@@ -725,11 +725,11 @@
         <translation>Filter</translation>
     </message>
     <message>
-        <source>%1 (shown without it)</source>
+        <source>%1 (the views show unfiltered values)</source>
         <translation>%1 (ungefiltert gezeigt)</translation>
     </message>
     <message>
-        <source>Edge of the square in the slice</source>
+        <source>Side of the square in the slice</source>
         <translation>Kante des Quadrats in der Schicht</translation>
     </message>
     <message>
@@ -800,8 +800,8 @@
         <translation>Korrigieren  (M)</translation>
     </message>
     <message>
-        <source>Corrects the outline with the chosen tool at the point that the stylus touches. Keep it pressed while the stylus moves along the right edge. The stylus&apos; second button and the key M in a view do the same.</source>
-        <translation>Korrigiert den Umriss mit dem gewählten Werkzeug an dem Punkt, den der Stift berührt. Gedrückt halten, während er sich den richtigen Rand entlang bewegt. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
+        <source>Corrects the outline with the chosen tool at the point that the stylus touches. Keep it pressed while the stylus moves along the true edge. The stylus&apos; second button and the key M in a view do the same.</source>
+        <translation>Korrigiert den Umriss mit dem gewählten Werkzeug an dem Punkt, den der Stift berührt. Gedrückt halten, während er sich den wahren Rand entlang bewegt. Die zweite Taste des Stifts und die Taste M in einer Ansicht tun dasselbe.</translation>
     </message>
     <message>
         <source>Stop recording</source>
@@ -844,8 +844,8 @@
         <translation>keine Grenze berührt</translation>
     </message>
     <message>
-        <source>%1 behind the proxy</source>
-        <translation>%1 hinter dem Proxy</translation>
+        <source>%1 from the proxy</source>
+        <translation>%1 vom Proxy</translation>
     </message>
     <message>
         <source>%1 past %2</source>
@@ -906,7 +906,7 @@
         <translation>Ein Bild zurück</translation>
     </message>
     <message>
-        <source>One frame on</source>
+        <source>Next frame</source>
         <translation>Ein Bild weiter</translation>
     </message>
     <message>
@@ -914,7 +914,7 @@
         <translation>Letztes Bild</translation>
     </message>
     <message>
-        <source>The frame that is shown and felt: the same as ParaView&apos;s time</source>
+        <source>The frame that is shown and felt. ParaView&apos;s time follows it.</source>
         <translation>Das Bild der Folge, das gezeigt und gefühlt wird: dasselbe wie die Zeit von ParaView</translation>
     </message>
 </context>
@@ -1336,8 +1336,8 @@
         <translation>Auch gezeigt, nicht gefühlt: %1.</translation>
     </message>
     <message>
-        <source>no such folder, or no right to it</source>
-        <translation>kein solcher Ordner oder keine Berechtigung, ihn zu lesen</translation>
+        <source>the folder does not exist, or you may not write to it</source>
+        <translation>den Ordner gibt es nicht, oder er darf nicht beschrieben werden</translation>
     </message>
     <message>
         <source>DICOM contours, RTSTRUCT (*.dcm)</source>
@@ -1370,7 +1370,7 @@
         <translation>ParaView wird beendet.</translation>
     </message>
     <message>
-        <source>All that is open is about to go.</source>
+        <source>This closes everything that is open.</source>
         <translation>Alles, was offen ist, wird geschlossen.</translation>
     </message>
     <message>
@@ -1382,8 +1382,8 @@
         <translation>Zustände von ParaView (*.pvsm)</translation>
     </message>
     <message>
-        <source>no such folder, or no right to it</source>
-        <translation>kein solcher Ordner oder keine Berechtigung, ihn zu lesen</translation>
+        <source>the folder does not exist, or you may not write to it</source>
+        <translation>den Ordner gibt es nicht, oder er darf nicht beschrieben werden</translation>
     </message>
 </context>
 <context>
@@ -1393,7 +1393,7 @@
         <translation>Zwei Punkte wählen</translation>
     </message>
     <message>
-        <source>In the slices or on what the 3D view shows: drag from one to the other, or click on both.</source>
+        <source>In a slice or in the 3D view: drag from the start point to the end point, or click on both.</source>
         <translation>In den Schichten oder auf dem, was die 3D-Ansicht zeigt: vom einen zum anderen ziehen oder auf beide klicken.</translation>
     </message>
     <message>
@@ -1409,7 +1409,7 @@
         <translation>x, y, z</translation>
     </message>
     <message>
-        <source>mm in the patient: to the left, to the back, to the head</source>
+        <source>DICOM patient coordinates (LPS) in mm: + to the left, to the back, to the head</source>
         <translation>mm im Patienten: nach links, nach hinten, zum Kopf</translation>
     </message>
     <message>
@@ -1499,7 +1499,7 @@
         <translation>%1 von %2 s</translation>
     </message>
     <message>
-        <source>Compares with another recording of the same stroke, place by place, at any speed</source>
+        <source>Compares with another recording of the same stroke, place by place. The speeds may differ.</source>
         <translation>Vergleicht mit einer anderen Aufzeichnung desselben Strichs, Ort für Ort, bei beliebiger Geschwindigkeit</translation>
     </message>
     <message>
@@ -1689,8 +1689,8 @@
         <translation>Schlaganfall</translation>
     </message>
     <message>
-        <source>Middle 98 %</source>
-        <translation>Mittlere 98 %</translation>
+        <source>1st to 99th percentile</source>
+        <translation>1. bis 99. Perzentil</translation>
     </message>
     <message>
         <source>Speed</source>
@@ -1772,7 +1772,7 @@
         <translation>Eine Segmentierung (SEG) von %1. %2</translation>
     </message>
     <message>
-        <source>It goes into this study as a new series, made with research software, not a medical device. The outline that was corrected stays.</source>
+        <source>It goes into this study as a new series, made with research software, not a medical device. The original outline is not changed.</source>
         <translation>Sie kommt als neue Serie in diese Studie, gemacht mit Forschungssoftware, nicht mit einem Medizinprodukt. Der Umriss, der korrigiert wurde, bleibt.</translation>
     </message>
 </context>
@@ -1783,8 +1783,8 @@
         <translation>Öffnet diese Serie</translation>
     </message>
     <message>
-        <source>★ Best to feel first: %1</source>
-        <translation>★ Am besten zuerst fühlen: %1</translation>
+        <source>★ Recommended: %1</source>
+        <translation>★ Empfohlen: %1</translation>
     </message>
     <message>
         <source>Cannot be felt: %1</source>
@@ -1794,8 +1794,8 @@
 <context>
     <name>SeriesList</name>
     <message>
-        <source>★ Best to feel first: %1</source>
-        <translation>★ Am besten zuerst fühlen: %1</translation>
+        <source>★ Recommended: %1</source>
+        <translation>★ Empfohlen: %1</translation>
     </message>
     <message>
         <source>%1
@@ -1962,11 +1962,11 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>StructuresSection</name>
     <message>
-        <source>Drawn in the scene</source>
+        <source>Made of contours that the scene contains</source>
         <translation>In der Szene gezeichnet</translation>
     </message>
     <message>
-        <source>%1 ml, as it was drawn %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
+        <source>Volume %1 ml, as first drawn %2 ml: %3 ml were added, %4 ml removed. The edge moved %5 mm at most.</source>
         <translation>%1 ml, gezeichnet %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Umriss wurde um höchstens %5 mm verschoben.</translation>
     </message>
     <message>
@@ -2034,7 +2034,7 @@ ID %2, Studie vom %3</translation>
         <translation>Nur innen</translation>
     </message>
     <message>
-        <source>A mode of the scene is felt inside it only</source>
+        <source>Choose a mode of the scene that is then felt only inside this structure</source>
         <translation>Ein Modus der Szene wird nur in ihr gefühlt</translation>
     </message>
     <message>
@@ -2074,7 +2074,7 @@ ID %2, Studie vom %3</translation>
         <translation>Listet die zweifelhaften Stellen ihres Umrisses und ermöglicht, ihn zu korrigieren (siehe Anleitung)</translation>
     </message>
     <message>
-        <source>%1 ml, in the file %2 ml: %3 ml added, %4 ml removed. The edge moved %5 mm at most.</source>
+        <source>Volume %1 ml, in the file %2 ml: %3 ml were added, %4 ml removed. The edge moved %5 mm at most.</source>
         <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Umriss wurde um höchstens %5 mm verschoben.</translation>
     </message>
     <message>
@@ -2082,8 +2082,8 @@ ID %2, Studie vom %3</translation>
         <translation>Er reicht %1 mm in %2 hinein.</translation>
     </message>
     <message>
-        <source>Margin to %1: %2 mm. Its keep-out begins at %3 mm.</source>
-        <translation>Abstand zu %1: %2 mm. Die Sperre beginnt bei %3 mm.</translation>
+        <source>Distance to %1: %2 mm. The keep-out margin of %1 is %3 mm wide.</source>
+        <translation>Abstand zu %1: %2 mm. Die Sperre um %1 ist %3 mm breit.</translation>
     </message>
 </context>
 <context>
@@ -2129,7 +2129,7 @@ ID %2, Studie vom %3</translation>
         <translation>Ansicht</translation>
     </message>
     <message>
-        <source>What the 3D view shows is in reach, turned as the view is.</source>
+        <source>The workspace of the stylus covers what the 3D view shows, and is turned as the view is.</source>
         <translation>Was die 3D-Ansicht zeigt, ist in Reichweite, gedreht wie die Ansicht.</translation>
     </message>
     <message>
@@ -2255,8 +2255,8 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>TissuesSection</name>
     <message>
-        <source>A scene says what is felt. The first was found in this scan.</source>
-        <translation>Eine Szene sagt, was gefühlt wird. Die erste wurde in dieser Aufnahme gefunden.</translation>
+        <source>A scene defines which boundaries are felt. The first in the list was made from this scan.</source>
+        <translation>Eine Szene sagt, was gefühlt wird. Die erste der Liste wurde aus dieser Aufnahme gemacht.</translation>
     </message>
     <message>
         <source>Found in this scan</source>
@@ -2314,12 +2314,12 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>VolumeLookBox</name>
     <message>
-        <source>How the volume is shown. Felt boundaries: each that is switched on, in its own color.</source>
+        <source>How the volume is drawn. 'Felt boundaries' shows each boundary that is switched on, in its color.</source>
         <translation>Wie das Volumen gezeigt wird. Gefühlte Grenzen: jede eingeschaltete in ihrer Farbe.</translation>
     </message>
     <message>
-        <source>As it was saved</source>
-        <translation>Wie gespeichert</translation>
+        <source>From the state file</source>
+        <translation>Aus der Zustandsdatei</translation>
     </message>
     <message>
         <source>Felt boundaries</source>
@@ -2397,8 +2397,8 @@ ID %2, Studie vom %3</translation>
         <translation>Der AE-Titel dieses Programms; das Archiv muss ihn kennen</translation>
     </message>
     <message>
-        <source>Fetch with C-GET if the archive supports it</source>
-        <translation>Mit C-GET holen, wenn das Archiv es kann</translation>
+        <source>Fetch with C-GET (the archive must support it)</source>
+        <translation>Mit C-GET holen (das Archiv muss es können)</translation>
     </message>
     <message>
         <source>With C-GET the archive answers on our connection. Without it, the archive connects to our port (C-MOVE).</source>
@@ -2409,8 +2409,8 @@ ID %2, Studie vom %3</translation>
         <translation>Unser Port</translation>
     </message>
     <message>
-        <source>For C-MOVE: it has to be entered in the archive, with our AE title and this machine&apos;s address</source>
-        <translation>Für C-MOVE: muss im Archiv eingetragen sein, mit unserem AE-Titel und der Adresse dieses Rechners</translation>
+        <source>For C-MOVE: the archive must know this port, our AE title and this machine&apos;s address</source>
+        <translation>Für C-MOVE: Das Archiv muss diesen Port, unseren AE-Titel und die Adresse dieses Rechners kennen</translation>
     </message>
     <message>
         <source>Echo</source>

@@ -117,7 +117,7 @@ void ClinicalToolbar::add_open() {
 void ClinicalToolbar::add_layouts() {
   four_ = add("palpateFourUp", tr("Four-up"), tr("Four-up: axial, sagittal, coronal and volume beside each other"));
   one_ =
-      add("palpateOneUp", tr("One-up"), tr("One-up: the marked view alone. A double click in a view does the same."));
+      add("palpateOneUp", tr("One-up"), tr("One-up: the active view alone. A double click in a view does the same."));
   four_->setIcon(layout_icon(palette(), 2));
   one_->setIcon(layout_icon(palette(), 1));
   auto* const group = new QActionGroup(this);

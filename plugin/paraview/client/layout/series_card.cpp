@@ -50,7 +50,7 @@ SeriesCard::SeriesCard(const io::Series& series, const QString& best, QWidget* p
            QStringLiteral("font-weight: bold"));
   add_line(*column, details);
   if (!best.isEmpty()) {
-    add_line(*column, tr("★ Best to feel first: %1").arg(best), QStringLiteral("color: #1b6e2c; font-weight: bold"));
+    add_line(*column, tr("★ Recommended: %1").arg(best), QStringLiteral("color: #1b6e2c; font-weight: bold"));
   }
   if (!why.isEmpty()) add_line(*column, tr("Cannot be felt: %1").arg(why), QStringLiteral("color: #8a4b00"));
   column->addStretch(1);

@@ -7,8 +7,8 @@ VolumeLookBox::VolumeLookBox(QWidget* parent) : QComboBox(parent) {
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   constexpr int characters = 9;
   setMinimumContentsLength(characters);
-  setToolTip(tr("How the volume is shown. Felt boundaries: each that is switched on, in its own color."));
-  setPlaceholderText(tr("As it was saved"));
+  setToolTip(tr("How the volume is drawn. 'Felt boundaries' shows each boundary that is switched on, in its color."));
+  setPlaceholderText(tr("From the state file"));
   setEnabled(false);
   connect(this, QOverload<int>::of(&QComboBox::activated), this, [this] {
     const auto chosen = static_cast<std::size_t>(currentIndex());

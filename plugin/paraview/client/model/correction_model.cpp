@@ -90,7 +90,7 @@ void CorrectionModel::hold_in(const std::optional<HeldPlane>& plane) {
   if (!structure_) return;
   if (plane != held_in_) {
     freed_ = false;
-    press_(plane ? tr("Hold in the slice") : tr("Hold in no slice"), holding(plane));
+    press_(plane ? tr("Hold in the slice") : tr("Release from the slice"), holding(plane));
   }
   emit changed();  // also where it comes to nothing: whoever asked shows what is so
 }

@@ -139,7 +139,7 @@ void BoundaryRow::add_strength(QWidget& parent, QGridLayout& grid, int row) {
   strength_->setSingleStep(0.1);
   strength_->setSuffix(tr(" N"));
   strength_->setKeyboardTracking(false);
-  strength_->setToolTip(tr("The force that it resists with before the stylus goes through"));
+  strength_->setToolTip(tr("The force at which the stylus breaks through this boundary"));
   connect(strength_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [this](double newtons) {
     edit(tr("Strength of %1").arg(name_of(model_.scene(), mode_)),
          [newtons](modes::Mode& mode) { scale_strength(mode, newtons); });

@@ -28,13 +28,14 @@ QString doubt_in_words(const io::DoubtfulPlace& place) {
   const auto mm = [](double length) { return QString::number(std::abs(length), 'f', 1); };
   switch (place.kind) {
     case io::DoubtKind::edge:
-      return (place.mean_mm > 0 ? CorrectBox::tr("the scan's edge lies %1 mm outside, known to ±%2 mm")
-                                : CorrectBox::tr("the scan's edge lies %1 mm inside, known to ±%2 mm"))
+      return (place.mean_mm > 0
+                  ? CorrectBox::tr("the scan's edge lies up to %1 mm outside the outline (uncertainty ±%2 mm)")
+                  : CorrectBox::tr("the scan's edge lies up to %1 mm inside the outline (uncertainty ±%2 mm)"))
           .arg(mm(place.largest_mm), mm(place.known_to_mm));
     case io::DoubtKind::no_edge:
       return CorrectBox::tr("no edge in the scan: the tissue is the same on both sides");
     case io::DoubtKind::island:
-      return CorrectBox::tr("a small part of its own");
+      return CorrectBox::tr("a small separate part");
     case io::DoubtKind::hole:
       return CorrectBox::tr("a small hole");
   }
@@ -102,10 +103,9 @@ QWidget* CorrectBox::build_tools() {
     button->setCheckable(true);
     tools_->addButton(button, static_cast<int>(tool));
   };
-  add_tool(
-      Tool::trace, "palpateToolTrace", tr("Trace"),
-      tr("Drag on a slice along the right edge: the outline goes there. Or hold M while the stylus feels it. In the "
-         "volume view drag over the outline: it goes to the scan's own edge there."));
+  add_tool(Tool::trace, "palpateToolTrace", tr("Trace"),
+           tr("Drag along the true edge in a slice: the outline moves to your line. Or hold M while the stylus touches "
+              "the edge. In the volume view drag over the outline: there it moves to the scan's own edge."));
   add_tool(Tool::add, "palpateToolAdd", tr("Add"), tr("Adds to the structure what the ball passes over"));
   add_tool(Tool::remove, "palpateToolRemove", tr("Remove"), tr("Removes from the structure what the ball passes over"));
   const auto add_number = [&](const char* name, double low, double high, double step, const QString& unit,
@@ -132,7 +132,7 @@ QWidget* CorrectBox::build_tools() {
   in_slice_ = new QCheckBox(box);
   in_slice_->setObjectName(QStringLiteral("palpateHoldInSlice"));
   in_slice_->setToolTip(
-      tr("The stylus stays in the slice of the marked view while it traces. Hold F in a view to free it."));
+      tr("The stylus stays in the slice of the active view while it traces. Hold F in a view to free it."));
   connect(in_slice_, &QCheckBox::clicked, this, &CorrectBox::slice_wanted);
   rows->addWidget(in_slice_, 0, Qt::AlignLeft);
   return box;
@@ -146,8 +146,9 @@ QWidget* CorrectBox::build_ways_out() {
                           [this] { model_.undo(); });
   redo_ = add_tool_button(*row, *this, "palpateCorrectRedo", tr("Redo"), tr("Applies the undone correction again"),
                           [this] { model_.redo(); });
-  before_ = add_tool_button(*row, *this, "palpateCorrectBefore", tr("Before"),
-                            tr("Shows the outline of the file while it is pressed; or B in a view"), [] {});
+  before_ = add_tool_button(
+      *row, *this, "palpateCorrectBefore", tr("Before"),
+      tr("While this button, or the key B in a view, is pressed, the outline of the file is shown"), [] {});
   connect(before_, &QToolButton::pressed, this, [this] { model_.show_before(true); });
   connect(before_, &QToolButton::released, this, [this] { model_.show_before(false); });
   row->addStretch(1);
@@ -209,7 +210,7 @@ void CorrectBox::show_place(QTreeWidgetItem& item, std::size_t place) const {
   const DoubtfulList::Fate fate = model_.doubtful().fate(place);
   const QString doubt = doubt_in_words(shown);
   item.setText(1, fate == DoubtfulList::Fate::corrected ? tr("corrected: %1").arg(doubt)
-                  : fate == DoubtfulList::Fate::left    ? tr("left: %1").arg(doubt)
+                  : fate == DoubtfulList::Fate::left    ? tr("kept: %1").arg(doubt)
                                                         : doubt);
   item.setToolTip(1, item.text(1));
   for (const int part : {0, 1}) {

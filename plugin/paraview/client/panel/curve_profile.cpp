@@ -41,8 +41,8 @@ CurveProfile::CurveProfile(SessionController& session, SceneModel& model, Stroke
   chart_ = new ChartPicture(small_chart_pixels, this);
   chart_->setObjectName(QStringLiteral("palpateCurveProfileChart"));
   chart_->setToolTip(
-      tr("The force along a line, as it would be felt now; dashed: before the curve was dragged. Rest "
-         "with the pointer on a boundary in a slice, touch one, or pick two points in Force profile."));
+      tr("The force along a line in the present scene. The dashed curve shows it before the curve was dragged. Hold "
+         "the pointer still over a boundary in a slice, touch a boundary, or pick two points in Force profile."));
   column->addWidget(chart_);
   words_ = new QLabel(this);
   words_->setObjectName(QStringLiteral("palpateCurveProfileWords"));
@@ -118,7 +118,7 @@ void CurveProfile::run() {
     job_.cancel();
     return;
   }
-  QString why = tr("Rest with the pointer on a boundary in a slice: the force across it is drawn here.");
+  QString why = tr("Hold the pointer still over a boundary in a slice: the force across it is drawn here.");
   try {
     if (const auto profile = strokes_.run(stroke())) {
       job_.ask([profile] { return make(profile()); },

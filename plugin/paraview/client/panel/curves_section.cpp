@@ -75,7 +75,7 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& session, Stro
   presets_->setObjectName(QStringLiteral("palpatePresets"));
   presets_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   presets_->setMinimumContentsLength(10);
-  presets_->addItem(tr("Shape of the strength…"));
+  presets_->addItem(tr("Preset curve…"));
   for (const Preset& preset : presets()) presets_->addItem(tr(preset.name));
   connect(presets_, QOverload<int>::of(&QComboBox::activated), this, [this](int index) { use_preset(index); });
   column->addWidget(presets_);

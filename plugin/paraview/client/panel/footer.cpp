@@ -160,7 +160,7 @@ void Footer::set_corrects(bool corrects) {
   mark_->setText(corrects ? tr("Correct  (M)") : tr("Mark  (M)"));
   mark_->setToolTip(
       corrects ? tr("Corrects the outline with the chosen tool at the point that the stylus touches. Keep it pressed "
-                    "while the stylus moves along the right edge. The stylus' second button and the key M in a view do "
+                    "while the stylus moves along the true edge. The stylus' second button and the key M in a view do "
                     "the same.")
                : tr("Marks the point that the stylus touches. Keep it pressed while the stylus moves to mark a path. "
                     "The stylus' second button and the key M in a view do the same."));
@@ -255,7 +255,7 @@ void Footer::show_look(const SessionStatus& look) {
   const double depth_mm = glm::length(look.proxy_mm - look.probe_mm);
   const QString depth = tr("%1 mm").arg(depth_mm, 0, 'f', 1);
   const QString past = look.force_n == 0   ? tr("no boundary touched")
-                       : look.held.empty() ? tr("%1 behind the proxy").arg(depth)
+                       : look.held.empty() ? tr("%1 from the proxy").arg(depth)
                                            : tr("%1 past %2").arg(depth, QString::fromStdString(look.held));
   // The tool tip has the whole of a shortened name; depth and error stay.
   depth_->setText(depth_->fontMetrics().elidedText(past, Qt::ElideMiddle, depth_->width()));

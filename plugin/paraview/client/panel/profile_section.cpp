@@ -75,7 +75,7 @@ QWidget* ProfileSection::build_points() {
   pick_ = new QPushButton(tr("Pick two points"), box);
   pick_->setObjectName(QStringLiteral("palpateProfilePick"));
   pick_->setCheckable(true);
-  pick_->setToolTip(tr("In the slices or on what the 3D view shows: drag from one to the other, or click on both."));
+  pick_->setToolTip(tr("In a slice or in the 3D view: drag from the start point to the end point, or click on both."));
   connect(pick_, &QPushButton::toggled, this, [this](bool on) { emit picking(on); });
   grid->addWidget(pick_, 0, 0, 1, 2);
   speed_ = new QDoubleSpinBox(box);
@@ -96,7 +96,7 @@ QWidget* ProfileSection::build_points() {
     auto* const field = new QLineEdit(box);
     field->setObjectName(QString::fromLatin1(name));
     field->setPlaceholderText(tr("x, y, z"));
-    field->setToolTip(tr("mm in the patient: to the left, to the back, to the head"));
+    field->setToolTip(tr("DICOM patient coordinates (LPS) in mm: + to the left, to the back, to the head"));
     connect(field, &QLineEdit::editingFinished, this, [this, point, field] { read_point(point, *field); });
     grid->addWidget(new QLabel(label, box), row, 0);
     grid->addWidget(field, row, 1, 1, 2);

@@ -154,7 +154,7 @@ QWidget* RecordingsSection::build_player() {
   last->addWidget(time_, 1);
   auto* const compare = new QPushButton(tr("Compare with…"), box);
   compare->setObjectName(QStringLiteral("palpateCompare"));
-  compare->setToolTip(tr("Compares with another recording of the same stroke, place by place, at any speed"));
+  compare->setToolTip(tr("Compares with another recording of the same stroke, place by place. The speeds may differ."));
   connect(compare, &QPushButton::clicked, this, [this] {
     if (const QString file = ask_for_recording(this); !file.isEmpty()) read(file, true);
   });

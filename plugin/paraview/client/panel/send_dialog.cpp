@@ -41,7 +41,7 @@ SendDialog::Content SendDialog::of_outline(const QString& structure, const QStri
           .what = tr("A segmentation (SEG) of %1. %2").arg(structure, change),
           .report = {},
           .note = tr("It goes into this study as a new series, made with research software, not a medical device. The "
-                     "outline that was corrected stays.")};
+                     "original outline is not changed.")};
 }
 
 SendDialog::SendDialog(const io::Series& series, const Content& content, std::vector<io::Archive> archives,

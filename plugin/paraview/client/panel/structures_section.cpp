@@ -224,7 +224,7 @@ void StructuresSection::show_row(QTreeWidgetItem& item, const Entry& entry) cons
                                         : QString());
   item.setFlags(fits ? Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable : Qt::ItemIsSelectable);
   item.setCheckState(0, entry.shown ? Qt::Checked : Qt::Unchecked);
-  QString tip = contours_of(entry.structure) ? tr("Drawn in the scene")
+  QString tip = contours_of(entry.structure) ? tr("Made of contours that the scene contains")
                                              : structure_text(entry.structure.file.filename().string());
   if (!entry.structure.code.empty()) tip += QLatin1Char('\n') + structure_text(entry.structure.code);
   if (!fits) tip += QLatin1Char('\n') + structure_text(entry.why_not);

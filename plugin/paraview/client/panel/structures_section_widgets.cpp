@@ -103,8 +103,9 @@ QWidget* StructuresSection::build_uses() {
   margin_->setSuffix(tr(" mm"));
   margin_->setToolTip(tr("Width of the keep-out margin. The footer warns while the stylus is in it"));
   row->addWidget(margin_);
-  auto* const gate = add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
-                                     tr("A mode of the scene is felt inside it only"), [] {});
+  auto* const gate =
+      add_tool_button(*row, *this, "palpateStructureGate", tr("Only inside"),
+                      tr("Choose a mode of the scene that is then felt only inside this structure"), [] {});
   gate->setPopupMode(QToolButton::InstantPopup);
   auto* const menu = new QMenu(gate);
   connect(menu, &QMenu::aboutToShow, this, [this, menu] { fill_gates(*menu); });

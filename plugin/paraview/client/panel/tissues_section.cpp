@@ -57,7 +57,7 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   auto* const top = new QHBoxLayout;
   scenes_ = new QComboBox(this);
   scenes_->setObjectName(QStringLiteral("palpateScenes"));
-  scenes_->setToolTip(tr("A scene says what is felt. The first was found in this scan."));
+  scenes_->setToolTip(tr("A scene defines which boundaries are felt. The first in the list was made from this scan."));
   choices_.push_back({tr("Found in this scan"), {}, {}});
   for (const std::string& name : modes::starting_scenes()) {
     const modes::Scene scene = modes::load_scene(name);

@@ -63,7 +63,7 @@ ArchiveDialog::ArchiveDialog(Job& echoing, QWidget* parent) : QDialog(parent), e
       tr("With C-GET the archive answers on our connection. Without it, the archive connects to our port (C-MOVE)."));
   form->addRow(QString(), uses_get_);
   listen_ = port("palpateArchiveListen", label_of("--listen"), defaults.listen_port,
-                 tr("For C-MOVE: it has to be entered in the archive, with our AE title and this machine's address"));
+                 tr("For C-MOVE: the archive must know this port, our AE title and this machine's address"));
   connect(uses_get_, &QCheckBox::toggled, listen_, &QSpinBox::setDisabled);
   build_tls(*form);
   message_ = make_message_label(*this, "palpateArchiveDialogMessage");

@@ -33,7 +33,7 @@ void ArchiveTab::build_archives() {
   row->addWidget(echo_);
   auto* const enter = new QPushButton(tr("Add…"), this);
   enter->setObjectName(QStringLiteral("palpateArchiveAdd"));
-  enter->setToolTip(tr("Enters an archive, or changes the one of that name"));
+  enter->setToolTip(tr("Adds an archive, or changes the settings of the one of that name"));
   connect(enter, &QPushButton::clicked, this, [this] { enter_archive(); });
   row->addWidget(enter);
   static_cast<QVBoxLayout*>(layout())->addLayout(row);
@@ -67,7 +67,7 @@ void ArchiveTab::build_fetch() {
   auto* const work = new QHBoxLayout;
   fetch_ = new QPushButton(tr("Fetch and open"), this);
   fetch_->setObjectName(QStringLiteral("palpateFetch"));
-  fetch_->setToolTip(tr("Fetches the marked series, or the whole study. A double click does the same."));
+  fetch_->setToolTip(tr("Fetches the selected series, or the whole study. A double click does the same."));
   connect(fetch_, &QPushButton::clicked, this, [this] { fetch(); });
   work->addWidget(fetch_, 1);
   progress_ = new QProgressBar(this);

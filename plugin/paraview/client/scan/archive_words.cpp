@@ -20,7 +20,7 @@ constexpr Field fields[] = {
     {"--port", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "Port")},
     {"--called", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "Its AE title")},
     {"--calling", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "Our AE title")},
-    {"--get", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "Fetch with C-GET if the archive supports it")},
+    {"--get", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "Fetch with C-GET (the archive must support it)")},
     {"--listen", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "Our port")},
     {"--tls-ca", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "TLS: authority")},
     {"--tls-certificate", "ArchiveDialog", QT_TRANSLATE_NOOP("ArchiveDialog", "TLS: certificate")},

@@ -144,7 +144,7 @@ void FilterRow::offer_amount() {
     amount_->setSingleStep(2);
     amount_->setRange(3, 5);
     amount_->setSuffix(tr(" pixels"));
-    amount_->setToolTip(tr("Edge of the square in the slice"));
+    amount_->setToolTip(tr("Side of the square in the slice"));
     amount_->setValue(3);
   } else if (type->reads_sigma_value) {
     amount_->setDecimals(0);
@@ -261,7 +261,7 @@ QString FilterRow::in_words() const {
   const io::Filter& filter = model_.scene().filter;
   if (filter.type == nullptr) return {};
   const QString words = QString::fromStdString(io::in_words(filter));
-  return shown_->isChecked() ? words : tr("%1 (shown without it)").arg(words);
+  return shown_->isChecked() ? words : tr("%1 (the views show unfiltered values)").arg(words);
 }
 
 }  // namespace palpate::plugin

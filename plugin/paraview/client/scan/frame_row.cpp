@@ -27,10 +27,10 @@ FrameRow::FrameRow(ScanModel& model, QWidget* parent) : QWidget(parent), model_(
   add("palpateFrameBack", "◀", tr("One frame back"), [](const ScanHandle& scan) { return scan.frame - 1; });
   frame_ = new QSlider(Qt::Horizontal, this);
   frame_->setObjectName(QStringLiteral("palpateFrame"));
-  frame_->setToolTip(tr("The frame that is shown and felt: the same as ParaView's time"));
+  frame_->setToolTip(tr("The frame that is shown and felt. ParaView's time follows it."));
   connect(frame_, &QSlider::valueChanged, this, [this](int frame) { model_.go_to_frame(frame); });
   row->addWidget(frame_, 1);
-  add("palpateFrameNext", "▶", tr("One frame on"), [](const ScanHandle& scan) { return scan.frame + 1; });
+  add("palpateFrameNext", "▶", tr("Next frame"), [](const ScanHandle& scan) { return scan.frame + 1; });
   add("palpateFrameLast", "▶|", tr("Last frame"), [](const ScanHandle& scan) { return scan.frames - 1; });
   column->addLayout(row);
   connect(&model, &ScanModel::changed, this, [this] { refresh(); });

@@ -137,12 +137,13 @@ void StylusSection::build_workspace() {
   };
   add(0, "palpateFitScan", tr("Scan"), tr("The whole scan is in the stylus' reach."),
       [this] { return fit_scan(model_.scene().workspace); });
-  add(1, "palpateFitView", tr("View"), tr("What the 3D view shows is in reach, turned as the view is."), [this] {
-    const bool held = session_.live().is_connected();
-    const device::Specification stylus =
-        held ? session_.live().specification() : device::SimulatedStylus().specification();
-    return fit_view(eye_(), stylus.workspace_half_extent);
-  });
+  add(1, "palpateFitView", tr("View"),
+      tr("The workspace of the stylus covers what the 3D view shows, and is turned as the view is."), [this] {
+        const bool held = session_.live().is_connected();
+        const device::Specification stylus =
+            held ? session_.live().specification() : device::SimulatedStylus().specification();
+        return fit_view(eye_(), stylus.workspace_half_extent);
+      });
   add(2, "palpateOneToOne", tr("1:1"), tr("1 mm of the hand is 1 mm in the patient."),
       [this] { return one_to_one(session_.live().plan() ? session_.live().plan()->workspace : modes::Workspace{}); });
   row->addStretch(1);

@@ -85,10 +85,10 @@ bool says(const QPushButton& card, const char* words) {
 QPushButton& best_card() {
   for (auto* const card : cards()) {
     for (const auto* const line : card->findChildren<QLabel*>()) {
-      if (line->text().startsWith(QStringLiteral("★ Best to feel first: "))) return *card;
+      if (line->text().startsWith(QStringLiteral("★ Recommended: "))) return *card;
     }
   }
-  throw std::runtime_error("no card is marked as the best to feel first");
+  throw std::runtime_error("no card is recommended");
 }
 
 void click_card(QPushButton& card) {
@@ -126,7 +126,7 @@ void a_scan_is_chosen_in_the_center() {
   auto& list = find<QListWidget>("palpateSeries");
   int marked = 0;
   for (int row = 0; row < list.count(); ++row) {
-    if (!list.item(row)->text().contains("★ Best to feel first: slices every 5.00 mm")) continue;
+    if (!list.item(row)->text().contains("★ Recommended: slices every 5.00 mm")) continue;
     ++marked;
     expect(list.item(row)->text().startsWith("CT STD BRAIN 5MM, 128 x 128 x 28\n201"), "the panel marks the same one");
   }

@@ -192,8 +192,8 @@ void margins_are_told() {
   const double height = height_of_slice();
   trace_the_edge(height);
   wait_for(
-      "the margin is told", [] { return label("palpateCorrectChange").contains("Margin to Vessel: "); }, 60);
-  const QString told = label("palpateCorrectChange").split("Margin to Vessel: ").last();
+      "the margin is told", [] { return label("palpateCorrectChange").contains("Distance to Vessel: "); }, 60);
+  const QString told = label("palpateCorrectChange").split("Distance to Vessel: ").last();
   const double margin = told.split(' ').first().toDouble();
   // At the pole the traced edge is nearest to the vessel, or a little beside it, where it was not traced.
   const double expected = glm::distance(on_the_edge(0, height), vessel) - vessel_mm;

@@ -181,7 +181,8 @@ void a_filter_is_felt_and_shown() {
   // Felt and not shown: it is said, and what is felt stays.
   click("palpateFilterShown");
   wait_for(
-      "it is said", [] { return label("palpateFelt").contains("Gaussian filter of 1 mm (shown without it)"); }, 20);
+      "it is said",
+      [] { return label("palpateFelt").contains("Gaussian filter of 1 mm (the views show unfiltered values)"); }, 20);
   expect(shown_noise() == raw_noise, "the raw values are shown");
   constexpr double trembling_hu = 10;
   expect(std::abs(steady_value() - felt) < trembling_hu, "what is felt stays");

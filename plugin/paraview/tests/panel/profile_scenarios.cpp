@@ -111,7 +111,7 @@ void a_curve_shows_its_force() {
   click("palpateCurvesSectionFold");
   QWidget& chart = find<QWidget>("palpateCurveProfileChart");
   scroll_to(chart, chart);
-  expect(label("palpateCurveProfileWords").contains("Rest with the pointer"), "it is said how a line is chosen");
+  expect(label("palpateCurveProfileWords").contains("Hold the pointer still"), "it is said how a line is chosen");
 
   // On the edge of the ball, as it is seen.
   QWidget& axial = view("Axial");
