@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 
+#include "modes/scene/scene_json.h"
 #include "modes/testing/test_rig.h"
+#include "modes/types/mode_type.h"
 
 namespace palpate::modes {
 namespace {
@@ -209,6 +212,24 @@ TEST(Catalogue, nothing_is_placed_where_a_field_is_zero_or_there_is_no_data) {
     EXPECT_EQ(placed(mode, io::Sample{}).size(), 0U) << type;
   }
   EXPECT_EQ(placed(mode_of("friction", Datum::value, 200, 2), io::Sample{}).size(), 0U);
+}
+
+/// As modes/README.md says.
+TEST(Catalogue, AStrengthWithoutADatumIsOfTheDatumOfItsMode) {
+  for (const ModeType* const type : mode_types()) {
+    const std::string name(type->name);
+    const std::string rest = contains(type->keys, Key::margin)     ? R"(, "structure": "liver")"
+                             : contains(type->keys, Key::landmark) ? R"(, "shape": "point", "position_mm": [0, 0, 0])"
+                                                                   : "";
+    const Scene scene = scene_from_json(
+        R"({"version": 1, "structures": [{"name": "liver", "file": "liver.dcm", "segment": "liver"}], "modes": [{"type": ")" +
+            name + R"(", "strength_n": 1)" + rest + "}]}",
+        "test");
+    const Datum expected = name == "surface"                     ? Datum::gradient_magnitude
+                           : name == "follow" || name == "force" ? Datum::vector_magnitude
+                                                                 : Datum::value;
+    EXPECT_EQ(scene.modes.front().strength_of, expected) << name;
+  }
 }
 
 }  // namespace
