@@ -136,7 +136,7 @@ TEST_F(PlaybackTest, AJumpWhileItPlaysIsToThePlaceAskedFor) {
   (void)playback.look("HU");
   EXPECT_GE(playback.at_s(), 1);
   EXPECT_LE(playback.at_s(), 1 + std::chrono::duration<double>(Clock::now() - before).count() + 2e-3);
-  EXPECT_TRUE(playback.is_playing());
+  EXPECT_EQ(playback.is_playing(), playback.at_s() < 2);
 }
 
 TEST_F(PlaybackTest, ItEndsAtItsEndAndBeginsAnewFromThere) {

@@ -37,7 +37,7 @@ struct ControlledSession : WithApplication, ::testing::Test {
     ASSERT_TRUE(comes([this] { return session.last().fresh; }));
   }
   const SessionStatus& last() const { return session.last(); }
-  bool is_near(const glm::dvec3& place_mm) const { return glm::distance(last().probe_mm, place_mm) < 0.5; }
+  bool is_near(const glm::dvec3& place_mm) const { return glm::distance(last().probe_mm, place_mm) < 1; }
   /// Until the simulated hand is there; with a force it stays a little short of it.
   bool goes_to(const glm::dvec3& place_mm) {
     session.move_hand(place_mm);
