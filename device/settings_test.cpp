@@ -113,12 +113,12 @@ TEST(Settings, WhatIsNoSettingIsRefusedByEveryKind) {
       {"WoodenHaptics", read_wooden_haptics}};
   const std::pair<Json, const char*> wrong[] = {
       {{{"color", 3}}, "'color' is not a setting"},
-      {{{"maximum_force", "much"}}, "'maximum_force' is not what it should be: \"much\""},
-      {{{"guarded", 3}}, "'guarded' is not what it should be"},
+      {{{"maximum_force", "much"}}, "'maximum_force' has an invalid value: \"much\""},
+      {{{"guarded", 3}}, "'guarded' has an invalid value"},
       {{{"position_signs", {1, 0, 1}}}, "'position_signs' is not three times 1 or -1"},
       {{{"force_signs", {1, 1, 0.5}}}, "'force_signs' is not three times 1 or -1"},
       {{{"force_signs", {-2, 1, 1}}}, "'force_signs' is not three times 1 or -1"},
-      {{{"force_signs", {1, 1}}}, "'force_signs' is not"},
+      {{{"force_signs", {1, 1}}}, "'force_signs' has an invalid value"},
       {Json::array(), "it is not a JSON object"}};
   for (const auto& [name, read] : kinds) {
     for (const auto& [json, why] : wrong) {

@@ -119,7 +119,7 @@ TEST_F(ForceDimension, ClosingLeavesNoForce) {
 TEST_F(ForceDimension, AnArmWithoutAHomeMovesOnlyWhenItMay) {
   drd->homed = 0;
   expect_refusal([&] { unthreaded()->open(); },
-                 "Force Dimension: the arm has no home yet, and to find it it moves by itself; keep hands off it, then "
+                 "Force Dimension: the arm is not homed yet, and homing moves it by itself; keep hands off it, then "
                  "allow it in its settings file: may_home, true");
   EXPECT_EQ(drd->auto_inits, 0);
   unthreaded({.may_home = true})->open();
@@ -264,7 +264,7 @@ TEST_F(ForceDimension, ItsSettingsFileLetsItFindItsHome) {
     drd->homed = 0;
     const std::string json = std::string(R"({"guarded": false, "may_home": )") + (may ? "true}" : "false}");
     const auto stylus = find_device_type("force_dimension")->make({.settings = files.write("omega.json", json)});
-    may ? stylus->open() : expect_refusal([&] { stylus->open(); }, "the arm has no home yet");
+    may ? stylus->open() : expect_refusal([&] { stylus->open(); }, "the arm is not homed yet");
     stylus->close();
     EXPECT_EQ(drd->auto_inits, may ? 1 : 0);
   }
