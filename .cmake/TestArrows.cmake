@@ -40,7 +40,7 @@ set(may_client_scan model jobs words widgets remote pipeline)
 set(may_client_panel model jobs words widgets views)
 set(may_client_language "")
 set(may_client_dock model jobs words widgets views remote pipeline stylus layout scan panel)
-set(core_of_qt QCoreApplication QElapsedTimer QMetaObject QObject QPointer QString QStringList QThreadPool QTimer)
+set(core_of_qt QCoreApplication QElapsedTimer QMetaObject QObject QPointer QString QStringList QThreadPool QTimer QTranslator)
 
 file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR}
   ${SOURCE_DIR}/solver/*.h ${SOURCE_DIR}/solver/*.cpp ${SOURCE_DIR}/io/*.h ${SOURCE_DIR}/io/*.cpp
