@@ -199,7 +199,7 @@ void margins_are_told() {
   const double expected = glm::distance(on_the_edge(0, height), vessel) - vessel_mm;
   expect(std::abs(margin - expected) < 0.7, "about " + std::to_string(expected) + " mm: " + told.toStdString());
   expect(margin < 30 - 21 - vessel_mm - 1, "less than that of the outline in the file");
-  expect(told.contains("begins at 3.0 mm"), "beside the keep-out's own: " + told.toStdString());
+  expect(told.contains("keep-out margin of Vessel is 3.0 mm wide"), "beside the keep-out's own: " + told.toStdString());
   wait_for("what is corrected may go out", may_go_out, 20);
   save_screen("correct-margins");
   click("palpateCorrect");

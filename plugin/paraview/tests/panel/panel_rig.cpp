@@ -90,8 +90,8 @@ QString label(const char* name) {
 }
 
 double number(const char* name) {
-  const auto match = QRegularExpression(QStringLiteral("^-?[0-9.]+")).match(label(name));
-  return match.hasMatch() ? match.captured().toDouble() : 0;
+  const auto match = QRegularExpression(QStringLiteral("^(?:Volume )?(-?[0-9.]+)")).match(label(name));
+  return match.hasMatch() ? match.captured(1).toDouble() : 0;
 }
 
 int clicks() {

@@ -45,7 +45,7 @@ Widget& find(const char* name) {
 }
 /// Text of a label.
 QString label(const char* name);
-/// The number that a label begins with.
+/// The number that a label begins with, perhaps after "Volume".
 double number(const char* name);
 /// The number once it is steady, within the tremor of a hand: half a percent for a hundred turns of events.
 double steady_number(const char* name);
