@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <thread>

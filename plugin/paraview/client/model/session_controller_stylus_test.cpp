@@ -2,10 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
+#include <string>
 
 #include "device/testing/haply_server.h"
 #include "plugin/paraview/client/model/session_state.h"
