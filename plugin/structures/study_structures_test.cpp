@@ -113,6 +113,29 @@ TEST(StudyStructures, HaveANameOfTheirOwnInAScene) {
   EXPECT_EQ(scene.structures.size(), 6U);
 }
 
+/// Its widest margin outside; what keeps in has its margin inside, and what is switched off has none.
+TEST(StudyStructures, WhatKeepsOutOfOneIsKnownByItsWidestMargin) {
+  io::Structure aorta;
+  aorta.file = "/s/a.dcm";
+  aorta.number = 4;
+  aorta.name = "Aorta";
+  modes::Scene scene;
+  EXPECT_FALSE(keep_out_of(scene, aorta));
+  add_boundary_of(scene, aorta);
+  EXPECT_FALSE(keep_out_of(scene, aorta)) << "a boundary keeps nothing out";
+  add_keep_out_of(scene, aorta, 9);
+  scene.modes.back().type = "keep_in";
+  EXPECT_FALSE(keep_out_of(scene, aorta));
+  add_keep_out_of(scene, aorta, 3);
+  add_keep_out_of(scene, aorta, 2);
+  EXPECT_EQ(keep_out_of(scene, aorta), 3);
+  scene.modes[2].enabled = false;
+  EXPECT_EQ(keep_out_of(scene, aorta), 2);
+  io::Structure other = aorta;
+  other.number = 5;
+  EXPECT_FALSE(keep_out_of(scene, other));
+}
+
 TEST(StudyStructures, OfAnotherPatientAreRefused) {
   constexpr const char* another =
       "rt.dcm was outlined on another patient than the scan's: choose one that was outlined on this study";
