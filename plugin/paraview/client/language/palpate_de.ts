@@ -331,12 +331,12 @@
 <context>
     <name>CorrectBox</name>
     <message>
-        <source>the scan&apos;s edge lies up to %1 mm outside the outline (uncertainty ±%2 mm)</source>
-        <translation>die Kante der Aufnahme liegt bis zu %1 mm außerhalb des Umrisses (auf ±%2 mm bekannt)</translation>
+        <source>scan&apos;s edge up to %1 mm outside (±%2 mm)</source>
+        <translation>Kante der Aufnahme bis zu %1 mm außerhalb (±%2 mm)</translation>
     </message>
     <message>
-        <source>the scan&apos;s edge lies up to %1 mm inside the outline (uncertainty ±%2 mm)</source>
-        <translation>die Kante der Aufnahme liegt bis zu %1 mm innerhalb des Umrisses (auf ±%2 mm bekannt)</translation>
+        <source>scan&apos;s edge up to %1 mm inside (±%2 mm)</source>
+        <translation>Kante der Aufnahme bis zu %1 mm innerhalb (±%2 mm)</translation>
     </message>
     <message>
         <source>no edge in the scan: the tissue is the same on both sides</source>

@@ -28,9 +28,8 @@ QString doubt_in_words(const io::DoubtfulPlace& place) {
   const auto mm = [](double length) { return QString::number(std::abs(length), 'f', 1); };
   switch (place.kind) {
     case io::DoubtKind::edge:
-      return (place.mean_mm > 0
-                  ? CorrectBox::tr("the scan's edge lies up to %1 mm outside the outline (uncertainty ±%2 mm)")
-                  : CorrectBox::tr("the scan's edge lies up to %1 mm inside the outline (uncertainty ±%2 mm)"))
+      return (place.mean_mm > 0 ? CorrectBox::tr("scan's edge up to %1 mm outside (±%2 mm)")
+                                : CorrectBox::tr("scan's edge up to %1 mm inside (±%2 mm)"))
           .arg(mm(place.largest_mm), mm(place.known_to_mm));
     case io::DoubtKind::no_edge:
       return CorrectBox::tr("no edge in the scan: the tissue is the same on both sides");
