@@ -48,7 +48,7 @@ struct DeviceType {
   bool has_force = true;
   bool is_simulated = false;                     ///< no hardware; it runs as fast as the program calls it
   std::vector<FoundDevice> (*find)() = nullptr;  ///< never throws; null: it is always present
-  /// Not open yet. Throws std::runtime_error naming the device, what is wrong with its settings and what to do.
+  /// Makes a closed stylus. Throws std::runtime_error naming the device, the flaw in its settings and what to do.
   std::shared_ptr<Stylus> (*make)(const DeviceChoice& choice) = nullptr;
   /// For the guardian: opens the device again and sends zeros. `take_away`: takes it from a process that is stopped.
   /// Null: the kind has no motors.

@@ -14,11 +14,11 @@ namespace palpate::device {
 struct SettingLimits {
   double force_n = ceiling::force_n;
   double stiffness_n_per_m = ceiling::stiffness_n_per_m;
-  bool tells_force = false;      ///< a largest force of 0: the device's own figure is used
+  bool tells_force = false;      ///< a largest force of 0 is allowed: then the device's own figure is used
   bool tells_stiffness = false;  ///< the same for a stiffness limit of 0
 };
 
-/// The wrong limit in these settings; empty if they are right.
+/// A message about a wrong limit in these settings; empty if they are right.
 template <typename Settings>
 Text wrong_limit(const Settings& settings, const SettingLimits& most) {
   const auto lies_within = [](double value, double highest, bool may_be_zero) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The series to feel first, of many.
+/// Chooses the series to feel first.
 
 #include <cstddef>
 #include <optional>

@@ -20,7 +20,7 @@ struct LoadOptions {
   };
   std::optional<Range> slices;
   /// Gives the values as rescaled() does. Every force is computed from values in this form, in ParaView and on the
-  /// command line; otherwise one could not replay a recording of the other to the last bit.
+  /// command line; otherwise a recording of one could not be replayed in the other to the last bit.
   bool is_rescaled = false;
 };
 
@@ -28,7 +28,7 @@ struct LoadOptions {
 /// requested. A velocity field (Catalogue::velocity_fields) gives its three directions and the speed, m/s. Decodes
 /// files in parallel, and needs little more memory than the volume. A slice that cannot be decoded becomes a gap and is
 /// named in Volume::warnings. Throws DicomError if nothing can be read, or if the series has no scalar images with a
-/// position; Cancelled.
+/// position. Throws Cancelled.
 Volume load(const Series& series, const LoadOptions& options = {});
 
 }  // namespace palpate::io

@@ -93,8 +93,8 @@ struct Catalogue {
 
 /// The series in these files and folders. Folders are searched to the bottom; names and extensions do not matter. A
 /// DICOMDIR among the paths stands for its folder; its own records are not used. A damaged file is left out; the others
-/// are read. Throws DicomError if a path does not exist or cannot be listed, or if DICOM's data dictionary is missing;
-/// Cancelled.
+/// are read. Throws DicomError if a path does not exist or cannot be listed, or if DICOM's data dictionary is missing.
+/// Throws Cancelled.
 Catalogue find_series(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
 }  // namespace palpate::io

@@ -11,7 +11,7 @@
 namespace palpate::io::internal {
 
 /// The files of an archive, in a new folder below the system's temporary folder. Only the user can read that folder. It
-/// is removed with its owner.
+/// is removed with the object that owns it.
 class Unpacked {
  public:
   struct File {

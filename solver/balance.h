@@ -31,7 +31,7 @@ Vec3 residual(const Balance& balance, const Vec3& proxy);
 
 /// The faults that the numbers of a balance can have.
 enum class Flaw : std::uint8_t {
-  not_finite,      ///< NaN, or infinite where only a constraint's strength may be
+  not_finite,      ///< NaN; or infinite, although it is not a constraint's strength
   negative,        ///< a strength below zero
   not_positive,    ///< a stiffness that is zero or less
   zero_direction,  ///< a direction of zero (or not normalizable) length

@@ -9,8 +9,8 @@
 
 namespace palpate::solver {
 
-/// For any forces F_i inside the primitives' force bodies, with r = |k (x - probe) - sum F_i| and
-/// eps = sum of phi_i(x) - F_i . (x_i - x), phi_i the primitive's term of the energy, strong convexity gives
+/// For any forces F_i that the primitives can exert (their force bodies), with r = |k (x - probe) - sum F_i| and
+/// eps = sum of phi_i(x) - F_i . (x_i - x), where phi_i is the primitive's term of the energy, strong convexity gives
 /// |x - x*| <= (r + sqrt(r^2 + 4 k eps)) / (2 k).
 struct Certificate {
   double error_bound = 0;  ///< m: |proxy - exact proxy| is at most this; rounded outwards
@@ -21,12 +21,12 @@ struct Certificate {
   double slack = 0;     ///< J: eps, where the bound was evaluated
 };
 
-/// The law above, evaluated in double-double: on the flat that holds the proxy, at its point nearest to the proxy (a
-/// rounded proxy is never exactly on a plane), plus the distance to that point; or at the proxy itself, if that bound
-/// is smaller.
+/// The law above, evaluated in double-double: at the point nearest to the proxy on the flat that holds it (a rounded
+/// proxy is never exactly on a plane), with the distance to that point added. If the bound at the proxy itself is
+/// smaller, it is taken.
 ///
-/// forces: one for each primitive, N. A force outside its primitive's force body is replaced by the nearest one inside;
-/// so any forces give a true bound, and good ones a tight one. A hard constraint that the proxy misses adds its
+/// forces: one for each primitive, N. A force outside its primitive's force body is replaced by the nearest one inside.
+/// So any forces give a true bound, and accurate forces a tight one. A hard constraint that the proxy misses adds its
 /// distance to the bound. If the constraints that hold the proxy and the hard ones have no common point, those missed
 /// by at most hard_tolerance are moved until they have one, and the bound is that of the moved balance. If one is
 /// missed by more, the bound is infinite. The balance must be one that validate() accepts. O(n), no allocation.

@@ -15,7 +15,7 @@ namespace palpate::solver {
 
 struct ChainOptions {
   SolverSet solvers = SolverSet::usual();
-  bool warm_start = true;     ///< from the forces of the previous balance, if it had as many primitives
+  bool warm_start = true;     ///< from the previous balance's forces, if the number of primitives is the same
   int max_iterations = 0;     ///< of each solver; 0: the solver's default
   std::size_t capacity = 64;  ///< primitives to reserve memory for
 };
@@ -28,8 +28,8 @@ class Chain {
   /// forces: one for each primitive, in the order given; each primitive's force on the proxy, N. Does not allocate,
   /// lock, throw or log for balances of up to the number of primitives reserved.
   ///
-  /// The same balance twice in a row returns the same answer, so that a force at rest is constant to the last bit in
-  /// spite of the warm start. The previous proxy is not compared, unless the solver that answered reads it.
+  /// The same balance twice in a row returns the same answer, so that the force on a resting stylus is constant to the
+  /// last bit in spite of the warm start. The previous proxy is not compared, unless the solver that answered reads it.
   Solution solve(const Balance& balance, std::span<Vec3> forces) noexcept;
 
   /// Bytes on the heap, with those of each solver that is switched on.

@@ -12,10 +12,10 @@ namespace palpate::solver {
 
 struct DescentOptions {
   double first_step = 1e-3;                                       ///< m: l of equation (22) at the start
-  double reduction = 0.7;                                         ///< of l, when equation (23) holds
+  double reduction = 0.7;                                         ///< the factor for l when equation (23) holds
   double turn = std::numeric_limits<double>::epsilon();           ///< N^2: the right side of equation (23)
   double smallest_step = std::numeric_limits<double>::epsilon();  ///< m: the loop ends when l is below it
-  int max_iterations = 10000;                                     ///< then Outcome::capped
+  int max_iterations = 10000;                                     ///< after that many: Outcome::capped
 };
 
 /// forces: one for each primitive; the force functions' values at the proxy found, N. They are zero on a constraint, so

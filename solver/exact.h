@@ -7,19 +7,19 @@
 /// or a point) on which some primitives hold it, and is the minimum of a smooth function there. The solver walks down E
 /// from flat to flat:
 ///
-/// * On a flat it takes Newton's steps, each cut back to where E is least along it. A plane that the step crosses is
+/// * On a flat it takes Newton's steps, each shortened to the point where E is least. A plane that the step crosses is
 ///   locked if it pushes back from both sides. A line or point that the step passes is locked if E is lower on it. The
 ///   flat loses a dimension with each lock.
 /// * At the minimum on a flat, the force needed is shared among the locked primitives. If each can exert its share, the
-///   proxy is found. Otherwise the one that falls shortest is released, and the walk goes on.
+///   proxy is found. Otherwise the primitive that lacks the most force is released, and the walk goes on.
 ///
-/// The walk ends, because every step lowers E, the minimum of a flat is reached before the flat is left, so no flat is
-/// left twice, and there are finitely many flats. If rounding prevents this, the cap on work ends the walk:
-/// Outcome::capped, with the best answer found and its true bound. If more primitives meet than are needed to fix a
-/// point, as at the old proxy, they share the force as the nearest point of the sum of their force bodies
-/// (exact/share.h). If the shares do not decide which to release, the primitives are moved apart by less than half an
-/// ulp, each in its own direction, and the walk is done again. Distances to near primitives are computed in
-/// double-double, relative to the probe, so that primitives parallel to within an ulp are told apart.
+/// The walk ends: every step lowers E, and the minimum of a flat is reached before it is left. So no flat is left
+/// twice, and there are finitely many flats. If rounding prevents this, the cap on work ends the walk: Outcome::capped,
+/// with the best answer found and its true bound. If more primitives meet than are needed to fix a point, as at the old
+/// proxy, the nearest point of the sum of their force bodies gives their shares (exact/share.h). If the shares do not
+/// decide which to release, the primitives are moved apart by less than half an ulp, each in its own direction, and the
+/// walk is done again. Distances to near primitives are computed in double-double, relative to the probe, so that
+/// primitives parallel to within an ulp are told apart.
 ///
 /// A hard constraint is given a very large strength, which is raised until all hard constraints are met: an exact
 /// penalty (D. P. Bertsekas, Constrained Optimization and Lagrange Multiplier Methods, 1982, 4.3).

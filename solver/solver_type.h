@@ -22,7 +22,7 @@ enum class Start : std::uint8_t {
 
 struct RunOptions {
   Start start = Start::cold;
-  int max_iterations = 0;  ///< then Outcome::capped; 0: the solver's default
+  int max_iterations = 0;  ///< after that many: Outcome::capped; 0: the solver's default
 };
 
 /// Memory that a solver keeps from balance to balance: one for each thread.
@@ -39,7 +39,7 @@ class Scratch {
 
 /// The configurations that a solver can solve.
 enum class Solves : std::uint8_t {
-  section_3_1,  ///< those of the paper's section 3.1 always; it may decline others (Outcome::unsuitable)
+  section_3_1,  ///< always those of the paper's section 3.1; it may decline others (Outcome::unsuitable)
   any           ///< configurations of every kind
 };
 
@@ -50,7 +50,7 @@ struct SolverType {
   Solves solves = Solves::any;
   bool is_usual = false;              ///< whether a chain has it by default
   bool reads_forces = false;          ///< whether Start::warm makes a difference
-  bool reads_previous_proxy = false;  ///< whether it reads that of the balance
+  bool reads_previous_proxy = false;  ///< whether it reads the balance's previous proxy
   /// Memory for balances of up to this number of primitives; a larger balance makes it grow, which allocates. Null if
   /// the solver needs none.
   std::unique_ptr<Scratch> (*make_scratch)(std::size_t primitives) = nullptr;
@@ -66,9 +66,9 @@ std::span<const SolverType* const> solver_types();
 const SolverType* find_solver_type(std::string_view name);
 /// The solver with this number in recordings; null if there is none.
 const SolverType* solver_of_number(std::uint32_t number) noexcept;
-/// 0 for null.
+/// The solver's number in recordings; 0 for null.
 std::uint32_t number_of(const SolverType* solver) noexcept;
-/// "none" for null.
+/// The solver's name; "none" for null.
 std::string_view name_of(const SolverType* solver) noexcept;
 
 /// A set of solvers.

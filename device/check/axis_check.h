@@ -1,7 +1,7 @@
 #pragma once
 
 /// Pushes a stylus gently along each axis in turn, through the safety filter, and finds the directions of its axes.
-/// What the hand felt gives the sign of the force; how the pose moved gives the sign of the position.
+/// What the user felt gives the sign of the force; how the pose moved gives the sign of the position.
 
 #include <array>
 #include <functional>
@@ -23,11 +23,11 @@ struct AxisPush {
 enum class Felt { as_said, opposite, nothing, stop };
 
 struct AxisHand {
-  /// Before each push; false ends the check.
+  /// Called before each push; false ends the check.
   std::function<bool(const AxisPush&)> ready;
-  /// After each push.
+  /// Called after each push.
   std::function<Felt(const AxisPush&)> felt;
-  /// Once, while the stylus waits to be homed.
+  /// Called once, while the stylus waits to be homed.
   std::function<void()> home;
 };
 

@@ -34,9 +34,9 @@ struct FalconSettings {
 /// Throws std::runtime_error naming the file, the key and what is wrong with it. Absent keys keep their defaults.
 FalconSettings read_falcon(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error naming the Falcon and what to do: no device, permission denied, no
-/// firmware, an upload that is not echoed. After open() the state is State::homing until the user has pulled the grip
-/// all the way out and pushed it in again; the force is zero until then.
+/// The stylus is not open yet. open() throws std::runtime_error naming the Falcon and what to do: no device, permission
+/// denied, no firmware, an upload that is not echoed. After open() the state is State::homing until the user has pulled
+/// the grip all the way out and pushed it in again; the force is zero until then.
 std::unique_ptr<Stylus> make_falcon(const FalconSettings& settings = {});
 
 }  // namespace palpate::device

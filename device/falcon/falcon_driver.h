@@ -48,7 +48,7 @@ class FalconProtocol final : public Protocol {
   ProtocolStatus status_;
   FalconReplies replies_;
   Vec3 robot_position_{0};
-  PoseDoubt doubt_{1e6};    // at the edge of the reach poses come and go
+  PoseDoubt doubt_{1e6};    // at the edge of the reach, valid and impossible poses alternate
   double doubt_began_ = 0;  // s
   double doubted_ = 0;      // s: of the last pose in doubt
   LockStep exchange_;

@@ -20,7 +20,7 @@ enum FalconLight : std::uint8_t { falcon_green = 0x02, falcon_blue = 0x04, falco
 
 struct FalconCommand {
   std::array<int, 3> motors{};  ///< -4096 to 4096; larger values are clamped, never wrapped
-  bool homing = true;           ///< sending false once makes the Falcon forget its home
+  bool homing = true;           ///< if false is sent once, the Falcon loses its home position
   std::uint8_t lights = 0;      ///< FalconLight bits
 };
 

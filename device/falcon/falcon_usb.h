@@ -15,7 +15,7 @@ std::vector<FoundDevice> find_falcons();
 /// Opens the Falcon at "bus:device", or the only one. Throws std::runtime_error naming it and what to do.
 std::unique_ptr<FalconLink> open_falcon_usb(const std::string& address);
 
-/// Takes the Falcon from the process that holds it, by force, and sends zeros: for a session that is stopped. That
+/// Takes the Falcon from the process that holds it, by force, and sends zeros: used for a session that is stopped. That
 /// session then finds the Falcon unplugged. False if the Falcon cannot be reached or the kernel refuses.
 bool take_falcon_and_send_zeros(const std::string& address) noexcept;
 

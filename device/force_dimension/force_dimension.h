@@ -25,8 +25,8 @@ struct ForceDimensionSettings {
 
 ForceDimensionSettings read_force_dimension(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error if the library or the device is missing, the library has another
-/// version, or the arm has no home and may not move.
+/// The stylus is not open yet. open() throws std::runtime_error if the library or the device is missing, the library
+/// has another version, or the arm has no home and may not move.
 std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& settings = {});
 
 /// Opens and closes each device that the library finds. Never throws; without the library there are none.

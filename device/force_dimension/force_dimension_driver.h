@@ -13,7 +13,7 @@
 
 namespace palpate::device {
 
-/// Of an omega: 12 N; it holds 14.5 N/mm, more than the chain allows.
+/// The force of an omega: 12 N. It can hold 14.5 N/mm, more than the program's ceiling allows.
 constexpr SettingLimits force_dimension_limits{.force_n = 12, .tells_force = true};
 
 /// A device that answers each call over USB: the stylus' own thread makes the calls.

@@ -27,7 +27,7 @@ struct HaplySettings {
 /// Throws std::runtime_error naming the file, the key and what is wrong with it. Absent keys keep their defaults.
 HaplySettings read_haply(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error if the service or the device is missing, or several could be meant.
+/// The stylus is not open yet. open() throws std::runtime_error if service or device is missing, or several match.
 std::unique_ptr<Stylus> make_haply(const HaplySettings& settings = {});
 
 }  // namespace palpate::device

@@ -78,18 +78,18 @@ class HaplyProtocol final : public Protocol {
   HaplySettings settings_;
   ProtocolStatus status_;
   HaplyDevice device_;
-  bool has_grip_ = false;              // a VerseGrip, which tells how it is turned
+  bool has_grip_ = false;              // a VerseGrip, which reports its orientation
   const char* vector_key_ = "vector";  // of 3.5; 3.1 says "values"
   bool switched_key_ = false;
   LockStep exchange_;
   bool hears_events_ = true;
-  // N, the service's frame: the last that were sent, the newest first. What acts is told late.
+  // N, the service's frame: the last forces sent, the newest first. The service reports the acting force late.
   std::array<Vec3, 4> sent_forces_{};
   std::optional<Vec3> acting_;
-  int unheeded_ = 0;       // answers in a row that tell of no force where one was sent
-  int foreign_ = 0;        // answers in a row that tell of a force that was not sent
-  bool on_trial_ = false;  // the service has not heeded the last forces
-  bool resumes_ = false;   // it heeds them again
+  int unheeded_ = 0;       // successive answers that report no force although one was sent
+  int foreign_ = 0;        // successive answers that report a force that was not sent
+  bool on_trial_ = false;  // the service has not applied the last forces
+  bool resumes_ = false;   // it applies them again
 };
 
 }  // namespace palpate::device

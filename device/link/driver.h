@@ -26,7 +26,7 @@ class Driver {
 
   /// Opens the device and brings it into its working state. Throws std::runtime_error naming it and what to do.
   virtual void connect() = 0;
-  /// After the zeros have been given. May be called without connect().
+  /// Called after the zeros have been given. May be called without connect().
   virtual void disconnect() noexcept = 0;
   /// s, never decreasing; only while connected.
   virtual double now() noexcept = 0;
@@ -34,7 +34,7 @@ class Driver {
   virtual void take(double timeout) noexcept = 0;
   /// Hands a force (N) to the device without waiting for it to act.
   virtual ForceAnswer give(const Vec3& force) noexcept = 0;
-  /// Waits at most `timeout` s until everything given has left.
+  /// Waits at most `timeout` s until everything given has been sent.
   virtual void flush(double timeout) noexcept = 0;
   /// Whether the device is gone; it stays so until the next connect().
   virtual bool lost() const noexcept = 0;

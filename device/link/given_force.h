@@ -1,9 +1,9 @@
 #pragma once
 
-/// The last layer before a device: it keeps the force on the device and decides the next one. It has three laws. The
-/// force on the device is known, or the worst is assumed. No force changes faster than the slew ceiling. Every zero
-/// that was inserted for any reason (a late servo, a doubtful pose, a device that refused or did not answer) is
-/// followed by a ramp.
+/// The last layer before a device: it keeps the force on the device and decides the next one. It keeps three rules. The
+/// force on the device is known, or the largest possible one is assumed. No force changes faster than the slew ceiling.
+/// Every zero that was inserted for any reason (a late servo, a doubtful pose, a device that refused or did not answer)
+/// is followed by a ramp.
 
 #include <limits>
 
@@ -36,7 +36,7 @@ class GivenForce {
 
   OnDevice on_device_ = OnDevice::unknown;
   Vec3 given_{0};                                                 // N
-  double given_time_ = -std::numeric_limits<double>::infinity();  // s: of `given_`, since when it is known to lie there
+  double given_time_ = -std::numeric_limits<double>::infinity();  // s: since then `given_` is known to be on the device
   double gain_ = 0;
   double time_ = 0;  // s: of the last next()
   bool zero_given_ = false;

@@ -18,7 +18,7 @@ struct HidKind {
   const char* kind;  ///< DeviceType::kind
   const char* name;  ///< its name in errors
   bool (*is_it)(const HidIds& ids) noexcept;
-  bool is_held_alone = false;  ///< by a lock on its node: the kernel lets any number of programs write to an arm
+  bool is_held_alone = false;  ///< by a lock on its node, because the kernel lets any number of programs write
   const char* note = "";       ///< for each device found
 };
 

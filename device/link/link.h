@@ -20,9 +20,9 @@ class Link {
   virtual double now() noexcept = 0;
   /// The next packet that arrived, waiting for it at most `timeout` s; 0 if there is none.
   virtual std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept = 0;
-  /// Hands a packet over without waiting; false if the previous one has not left yet.
+  /// Hands a packet over without waiting; false if the previous one has not been sent yet.
   virtual bool send(std::span<const std::uint8_t> packet) noexcept = 0;
-  /// Waits at most `timeout` s until everything handed over has left.
+  /// Waits at most `timeout` s until everything handed over has been sent.
   virtual bool flush(double timeout) noexcept = 0;
   virtual bool lost() const noexcept = 0;
 };

@@ -29,7 +29,7 @@ struct LinkStylusOptions {
   GuardianSettings guardian;
   /// Starts the guardian: the process, or a fake in a test.
   std::function<std::unique_ptr<Guardian>(const GuardianSettings&)> start_guardian = device::start_guardian;
-  double guardian_patience = Guardian::patience_s;  ///< s: within this time the guardian has to prove itself
+  double guardian_patience = Guardian::patience_s;  ///< s: within this time the guardian has to send its proof
   AxisSigns signs;
   bool stays_awake = false;                   ///< the machine is asked not to sleep while the stylus is open
   double (*asleep)() noexcept = time_asleep;  ///< s that the machine has slept: a jump is a fault
@@ -44,7 +44,7 @@ class LinkStylus final : public Stylus {
              const LinkStylusOptions& options = {});
   ~LinkStylus() override;
 
-  /// Of the kind of device. After open(), of the device that was opened.
+  /// The specification of the kind of device; after open(), of the device that was opened.
   Specification specification() const override { return specification_; }
   void open() override;
   void close() noexcept override;
@@ -55,7 +55,7 @@ class LinkStylus final : public Stylus {
   Text trouble() const override { return advice_for(fault()); }
 
   LinkFault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
-  /// For the exchanging thread; after close(): the last state of the device.
+  /// For the exchanging thread. After close() it is the last state of the device.
   OnDevice on_device() const noexcept { return given_.on_device(); }
   /// One exchange, waiting for packets at most `timeout` s. Only without a thread.
   void service(double timeout) noexcept;

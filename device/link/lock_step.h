@@ -18,19 +18,19 @@ struct LockStepTimes {
 
 class LockStep {
  public:
-  /// s: a missing answer counts as lost if it has not come for this long after another one. A longer time leaves the
+  /// s: a missing answer counts as lost if it has not come within this time after another one. A longer time leaves the
   /// link without a pose for longer than Protocol::longest_silence().
   static constexpr double longest_way = 0.050;
 
   explicit LockStep(const LockStepTimes& times = {}) : times_(times) {}
 
-  /// Nothing was sent, and nothing is on its way.
+  /// To be called when nothing was sent and no answer is expected.
   void restart() noexcept { *this = LockStep(times_); }
   /// Whether a command is due: the last one was answered, or is overdue.
   bool is_due(double now) noexcept;
-  /// A command was sent, when one was due.
+  /// To be called when a command that was due has been sent.
   void sent(double now) noexcept;
-  /// This many answers came.
+  /// To be called when this many answers have come.
   void answered(std::uint64_t count, double now) noexcept;
   /// Whether the last answer is current: it and the one before it came in time, and none is missing. If not, the
   /// position of the hand is not known.

@@ -18,17 +18,17 @@ namespace palpate::device {
 struct GuardianSettings {
   std::string program;  ///< path of palpate-guardian; empty: no guardian
   std::string kind;     ///< DeviceType::kind
-  std::string address;  ///< of the one device, as FoundDevice::address
+  std::string address;  ///< the address of its device, as FoundDevice::address
 };
 
 class Guardian {
  public:
-  /// s for its proof, and again for its search for the device.
+  /// s that it has for its proof, and once more for its search for the device.
   static constexpr double patience_s = 5;
-  /// s: the longest wait for its end, even if it hangs.
+  /// s: the longest time to wait until it ends, even if it hangs.
   static constexpr double end_within_s = 2;
 
-  /// `pid` 0: there is no process, and somebody else owns `shared`.
+  /// `pid` 0: there is no process, and another object owns `shared`.
   Guardian(int pid, int pipe, GuardianBeat* shared, std::string program = {})
       : pid_(pid), pipe_(pipe), shared_(shared), program_(std::move(program)) {}
   Guardian(const Guardian&) = delete;
@@ -75,7 +75,7 @@ class Guardian {
 std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings);
 
 /// Whether a guardian of this user can leave the session's control group: a systemd runs the user's scopes. If not,
-/// whoever ends the whole group (the end of a container, an out-of-memory killer) ends both.
+/// what ends the whole group (the end of a container, an out-of-memory killer) ends both.
 bool guardian_can_leave_group();
 
 /// The path of palpate-guardian: $PALPATE_GUARDIAN if it is set; else the first of guardian_candidates() that exists.

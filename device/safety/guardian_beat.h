@@ -11,7 +11,7 @@ namespace palpate::device {
 
 /// The guardian's reach for its device.
 enum class GuardianReach : std::uint32_t {
-  untold,       ///< it has not checked yet
+  untold,       ///< not known: it has not checked yet
   none,         ///< it finds no device, no rights to it, or no maker's library
   looks_on,     ///< it can only see whether the force is gone
   once_free,    ///< it takes the force away once the session has released the device, not while the session is only
@@ -19,7 +19,7 @@ enum class GuardianReach : std::uint32_t {
   at_any_time,  ///< it can also take it from a session that is stopped
 };
 
-/// Neither side waits for the other: all of it is atomic, or written before the guardian starts.
+/// Neither side waits for the other: every member is atomic, or written before the guardian starts.
 struct GuardianBeat {
   // The session's.
   std::atomic<std::uint32_t> count{0};                    ///< exchanges with the device

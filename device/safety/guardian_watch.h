@@ -18,7 +18,7 @@ class GuardianWatch {
   /// `beat`: the session's counter; null if it shares none, which never counts as stopped.
   explicit GuardianWatch(const GuardianBeat* beat) : beat_(beat) {}
   /// Call it every look_every_ms. True from the poll at which the session has been stopped for looks_until_stopped
-  /// polls, until it goes on.
+  /// polls, until it continues.
   bool stopped() {
     if (beat_ == nullptr) return false;
     const auto count = beat_->count.load(std::memory_order_relaxed);
@@ -27,7 +27,7 @@ class GuardianWatch {
     looks_ = still ? looks_ + 1 : 0;
     return looks_ >= looks_until_stopped;
   }
-  /// Whether this is the first such poll since the session last went on.
+  /// Whether this is the first poll with stopped() true since the session last continued.
   bool stopped_just_now() const { return looks_ == looks_until_stopped; }
 
  private:

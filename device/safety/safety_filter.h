@@ -27,7 +27,7 @@ enum class Fault : std::uint8_t {
   force_stale,       ///< no new force for SafetyLimits::stall_time
   tick_late,         ///< the filter itself was not called for SafetyLimits::stall_time
   speed_exceeded,    ///< the hand was faster than SafetyLimits::speed
-  commander_silent,  ///< no sign of life for SafetyLimits::heartbeat_time
+  commander_silent,  ///< the controlling thread gave no sign of life for SafetyLimits::heartbeat_time
 };
 const char* name_of(Fault fault);
 /// A sentence that says what happened and what the user can do; empty without a fault.

@@ -13,11 +13,11 @@ namespace ceiling {
 /// N: the force of an omega (Force Dimension, 12 N). It is the strongest stylus whose force we know from its maker. A
 /// person controls 2 to 6 N with one finger for minutes (Jones, "Perception and control of finger forces", 1998).
 inline constexpr double force_n = 12;
-/// N/s: at `speed_m_per_s` a wall of 1000 N/m is still rendered without lag. Only Force Dimension's
-/// devices have a stiffer default.
-/// OpenHaptics calls a faster change a force impulse and refuses it (HD_FORCE_IMPULSE).
+/// N/s: at `speed_m_per_s` the force of a wall of 1000 N/m still follows without delay. Only Force Dimension's
+/// devices have a stiffer default. OpenHaptics calls a faster change a force impulse and refuses it
+/// (HD_FORCE_IMPULSE).
 inline constexpr double slew_n_per_s = 1000;
-/// s, the longest that a tick or exchange counts: so a late one makes no step in the force.
+/// s, a tick or exchange that takes longer counts as this long, so a late one makes no step in the force.
 inline constexpr double slew_time_s = 0.002;
 /// s, the shortest ramp. A person can let go in less time: a simple reaction to touch takes about 0.16 s.
 inline constexpr double ramp_s = 0.25;
@@ -28,12 +28,12 @@ inline constexpr double speed_m_per_s = 1;
 /// N/m: above it the simulated device rings on oblique walls (`palpate-bench stability`).
 inline constexpr double stiffness_n_per_m = 3000;
 inline constexpr double force_age_s = 0.010;       ///< a computed force that is older counts as zero
-inline constexpr double pose_age_s = 0.010;        ///< without a new pose for so long the force counts as zero
+inline constexpr double pose_age_s = 0.010;        ///< without a new pose for this time the force counts as zero
 inline constexpr double link_force_age_s = 0.020;  ///< a written force that is not renewed counts as zero in the link
 inline constexpr double stall_s = 0.100;           ///< a fault if a force, pose or tick is later
-inline constexpr double refusal_s = 0.050;         ///< a fault if a device refuses every force for so long
-inline constexpr double guardian_s = 0.5;          ///< a fault if the guardian shows no sign of life for so long
-inline constexpr double heartbeat_s = 2.0;         ///< a fault if the controlling thread is silent for so long
+inline constexpr double refusal_s = 0.050;         ///< a fault if a device refuses every force for this time
+inline constexpr double guardian_s = 0.5;          ///< a fault if the guardian shows no sign of life for this time
+inline constexpr double heartbeat_s = 2.0;         ///< a fault if the controlling thread is silent for this time
 
 }  // namespace ceiling
 

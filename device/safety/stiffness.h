@@ -17,7 +17,7 @@ struct RenderingDynamics {
 struct StiffnessBounds {
   double passive = 0;    ///< passive without a hand: b / (T/2 + t_d); J. E. Colgate and G. Schenkel, 1997
   double held = 0;       ///< the same with the hand's damping
-  double near_rest = 0;  ///< friction takes up the energy of the position steps: 2 c / D; N. Diolaiti et al., 2006
+  double near_rest = 0;  ///< friction absorbs the energy of the position steps: 2 c / D; N. Diolaiti et al., 2006
   double advised = 0;    ///< the cap: see stiffness_bounds()
 };
 

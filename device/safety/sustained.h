@@ -14,7 +14,7 @@ struct SustainedLimit {
 /// The heat of one motor above its steady state at the continuous value: the integral of I²t.
 class SustainedLoad {
  public:
-  /// The largest current or force allowed now. Falls smoothly to the continuous one as the heat nears its limit.
+  /// The largest current or force allowed now. It falls smoothly to the continuous value as the heat nears its limit.
   double allowed(const SustainedLimit& limit) const noexcept;
   /// Adds the heat of a current or force of this size that lasted `elapsed` s.
   void add(const SustainedLimit& limit, double size, double elapsed) noexcept;

@@ -8,8 +8,8 @@
 namespace palpate::device {
 
 /// s until the next attempt to reach a device that could not be reached for `seconds`. At first none, because a session
-/// that is ending may release it at any moment; then longer, but so short that a device that is plugged in again keeps
-/// its force for less than 0.3 s.
+/// that is ending may release it at any moment; later it is longer. A device that is plugged in again keeps its force
+/// for less than 0.3 s in any case.
 double pause_after(double seconds) noexcept;
 
 /// Repeats `try_once` with these pauses until it succeeds. False as soon as `gives_up(s since the first attempt)`;

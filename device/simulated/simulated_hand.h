@@ -37,7 +37,7 @@ struct BodyState {
   Vec3 velocity{0};  ///< m/s
 };
 
-/// Tremor: for each axis five sines, frequencies drawn evenly from the band, phases at random, equal amplitudes.
+/// Tremor: for each axis five sines with frequencies drawn evenly from the band, random phases and equal amplitudes.
 class Tremor {
  public:
   explicit Tremor(const HandModel& hand);

@@ -3,9 +3,9 @@
 /// A stylus that exists only in arithmetic: a simulated arm, held by a simulated hand. The hand follows a scripted path
 /// or a live target, and is moved by the forces that are written.
 ///
-/// Stepped by simulated time, never by the clock: each read() and write_force() pair is one tick of 1 / rate, so the
-/// same forces give the same poses bit for bit. A force is held for a tick (zero-order hold) and acts `delay` after it
-/// was written; poses are read in steps, as from encoders.
+/// It advances by simulated time, never by the clock: each read() and write_force() pair is one tick of 1 / rate, so
+/// the same forces give the same poses bit for bit. A force is held for a tick (zero-order hold) and acts `delay` after
+/// it was written; poses are read in steps, as from encoders.
 
 #include <array>
 #include <atomic>
@@ -34,8 +34,8 @@ struct SimulatedDevice {
 
 enum class SimulatedFault : std::uint8_t {
   none,
-  unplugged,     ///< State::fault, the last pose for ever, no force reaches the arm
-  stalled,       ///< the last pose for ever and the last force held, while the hand moves on
+  unplugged,     ///< State::fault: the last pose stays, and no force reaches the arm
+  stalled,       ///< the last pose and the last force stay, while the hand moves on
   not_a_number,  ///< poses of NaN
 };
 

@@ -18,10 +18,10 @@ struct SpaceMouseSettings {
   Vec3 half_extent{0.08, 0.06, 0.06};  ///< m: the pose stays within
 };
 
-/// Not open yet. open() throws std::runtime_error naming the device and what to do.
+/// The stylus is not open yet. open() throws std::runtime_error naming the device and what to do.
 std::unique_ptr<Stylus> make_space_mouse(const SpaceMouseSettings& settings = {});
 
-/// Whether USB ids are a puck's: 3Dconnexion's keyboards and mice without a puck share its vendor id.
+/// Whether USB ids are a puck's. 3Dconnexion's keyboards and mice without a puck have the same vendor id.
 bool is_space_mouse(unsigned vendor, unsigned product) noexcept;
 
 }  // namespace palpate::device

@@ -29,7 +29,7 @@ class SpaceMouseProtocol final : public Protocol {
   ProtocolStatus status_;
   Vec3 deflection_{0};  // -1 to 1, device's axes
   double time_ = 0;
-  double told_ = 0;  // s: of the last report of motion
+  double told_ = 0;  // s: the time of the last report of motion
 };
 
 }  // namespace palpate::device

@@ -62,8 +62,8 @@ struct HdLibrary {
   unsigned long (*schedule_asynchronous)(hd::Callback callback, void* data, unsigned short priority) = nullptr;
   void (*unschedule)(unsigned long handle) = nullptr;
 
-  /// Empties the library's stack of errors, which keeps one for each call that failed. Returns the gravest, and of
-  /// equally grave ones the newest; hd::success where there is none.
+  /// Empties the library's stack of errors, which keeps one for each call that failed. Returns the most serious one,
+  /// and of several such the newest; hd::success if there is none.
   unsigned drain_errors() const noexcept;
   std::string words_for(unsigned code) const;
   /// Initializes the device of this name; empty: the default one. If that fails, returns hd::invalid_device, puts

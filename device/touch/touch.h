@@ -26,8 +26,8 @@ struct TouchSettings {
 
 TouchSettings read_touch(const std::string& json_file);
 
-/// Not open yet. open() throws std::runtime_error if the library or the device is missing, or the library has another
-/// version. The state is State::homing until the device is calibrated, by its inkwell if the model has one.
+/// The stylus is not open yet. open() throws std::runtime_error if the library or the device is missing, or the library
+/// has another version. The state is State::homing until the device is calibrated, by its inkwell if the model has one.
 std::unique_ptr<Stylus> make_touch(const TouchSettings& settings = {});
 
 /// One entry if the library is installed: the library names its device only after it was opened.

@@ -16,11 +16,11 @@
 
 namespace palpate::device {
 
-/// Of the strongest model that was ever sold as Touch X or Desktop, by its maker's data sheet: 7.9 N, 2.35 N/mm.
+/// The limits of the strongest model ever sold as Touch X or Desktop, by its maker's data sheet: 7.9 N, 2.35 N/mm.
 constexpr SettingLimits touch_limits{
     .force_n = 7.9, .stiffness_n_per_m = 2350, .tells_force = true, .tells_stiffness = true};
 
-/// The library calls back a thousand times a second, in a thread of its own: poses and forces are handed across.
+/// The library calls back a thousand times a second, in its own thread: poses and forces pass between the threads.
 class TouchDriver final : public Driver {
  public:
   explicit TouchDriver(const TouchSettings& settings, const DriverClock& clock = {});
@@ -40,7 +40,7 @@ class TouchDriver final : public Driver {
   void describe(Specification& specification) const override { specification = described_; }
 
  private:
-  /// Of one callback.
+  /// The data of one callback.
   struct Sample {
     Vec3 position_mm{0};
     double transform[16] = {};
@@ -73,8 +73,8 @@ class TouchDriver final : public Driver {
   sem_t sampled_;
   // The library's thread's.
   double called_ = 0;    // s: of the last callback
-  int unrenewed_ = 0;    // callbacks since a force came
-  int calibrating_ = 0;  // callbacks since the calibration was looked at
+  int unrenewed_ = 0;    // callbacks since the last new force
+  int calibrating_ = 0;  // callbacks since the calibration was last checked
   unsigned style_ = 0;   // of its calibration
   unsigned calibration_ = hd::needs_update;
   bool was_calibrated_ = false;

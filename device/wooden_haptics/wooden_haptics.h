@@ -15,7 +15,7 @@ namespace palpate::device {
 /// Meters, newton meters per ampere, amperes; per axis in the order a (base), b (lower body), c (upper body). Boards
 /// and arms differ: keep yours in a JSON file whose keys are these names (read_wooden_haptics).
 struct WoodenHapticsSettings {
-  std::string preset;          ///< the arm; required, because the settings of another arm push many times too hard
+  std::string preset;          ///< the arm; required, because the settings of another arm give far too large forces
   std::string address;         ///< the hidraw path; required, because other devices share its USB ids
   bool short_reports = false;  ///< firmware of 2016: reports of 8 bytes, no calibration button
   bool stylus_button = false;  ///< the stylus has a button, which adds 10000 to the fourth encoder
@@ -32,7 +32,7 @@ struct WoodenHapticsSettings {
   std::array<bool, 3> motor_aligned{false, true, false};  ///< motor and body turn the same way
   std::array<int, 3> home_counts{0, 0, 0};                ///< encoders in the home pose; for the 2019 arm {0, 0, 6000}
   double current_limit = 2.0;       ///< A: all three are scaled down together; the amplifiers bear it for 4 s
-  double continuous_current = 1.0;  ///< A that each motor can bear without end
+  double continuous_current = 1.0;  ///< A that each motor can bear permanently
   double maximum_force = 5.0;       ///< N
   double stiffness_limit = 1000;    ///< N/m
   bool guarded = true;              ///< start a guardian process if palpate-guardian is found
@@ -58,9 +58,9 @@ Vec3 wooden_haptics_torques(const WoodenHapticsSettings& settings, const Vec3& a
 /// Motor currents, mA, within the current limit by one common factor; zeros if a torque is not finite.
 std::array<int, 3> wooden_haptics_currents(const WoodenHapticsSettings& settings, const Vec3& torques) noexcept;
 
-/// Not open yet. open() throws std::runtime_error naming the device and what to do. The state is State::homing, without
-/// force, until the user has put the arm into its home pose and pressed its calibration button. Firmware of 2016 knows
-/// no button: the pose in which the arm is opened counts as the home pose.
+/// The stylus is not open yet. open() throws std::runtime_error naming the device and what to do. The state is
+/// State::homing, without force, until the user has put the arm into its home pose and pressed its calibration button.
+/// Firmware of 2016 reports no button: the pose in which the arm is opened counts as the home pose.
 std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings);
 
 }  // namespace palpate::device

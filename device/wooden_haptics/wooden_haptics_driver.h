@@ -40,15 +40,15 @@ class WoodenHapticsProtocol final : public Protocol {
   std::size_t report_size_ = 0;  // 0: not known yet
   std::array<int, 3> offset_{};
   bool calibrated_ = false;
-  bool button_ = false;  // the calibration button's latch, as the last report has it
+  bool button_ = false;  // the calibration button's latch in the last report
   Vec3 angles_{0};
-  PoseDoubt doubt_{0.25};  // reports have no checksum: many that cannot be mean that others are wrong, too
-  /// The firmware waits for an output after each report. Where it does not, the newest report tells of now.
+  PoseDoubt doubt_{0.25};  // reports have no checksum: many impossible ones mean that others are wrong, too
+  /// The firmware waits for an output after each report. If it does not wait, the newest report is current.
   LockStep exchange_{{.overdue = 0.010, .speaks_unasked = true}};
   bool started_ = false;
   double sent_ = 0;
   std::array<SustainedLoad, 3> loads_;  // of the motors
-  bool keeps_home_ = false;             // it was closed and not unplugged: its counters have counted on
+  bool keeps_home_ = false;             // it was closed but not unplugged: its counters went on counting
   int starts_ = 0;
 };
 

@@ -40,7 +40,7 @@ struct Archive {
   std::string calling;                     ///< our AE title, as the archive knows us
   bool uses_get = false;                   ///< fetch with C-GET; false: with C-MOVE to our own storage service
   std::string listen_address = "0.0.0.0";  ///< IPv4 address of our storage service for C-MOVE
-  int listen_port = 11112;                 ///< and its port; the archive has to know both
+  int listen_port = 11112;                 ///< port of our storage service; the archive has to know address and port
   Tls tls;
   int silence_s = 30;  ///< s: give up if the archive is silent for this long
 

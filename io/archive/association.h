@@ -56,7 +56,7 @@ class Association {
   std::unique_ptr<DcmDataset> receive_dataset(T_ASC_PresentationContextID context, std::size_t most_bytes);
   /// After this the association can only be aborted.
   void give_up() noexcept { broken_ = true; }
-  /// The watch of this connection, for code that reads from the connection itself: it has to report what it hears.
+  /// The watch of this connection, for code that reads from the connection itself: it has to report what it receives.
   Watch& watch() noexcept { return *watch_; }
 
  private:

@@ -43,8 +43,8 @@ struct Fetched {
 };
 
 /// Fetches the studies or series with these UIDs into `folder`. A missing folder is made, readable by its owner alone.
-/// Each series gets a subfolder, and its files get names of our own. Throws Cancelled if the watcher returns false, and
-/// ArchiveError for every other failure; a fetch that throws leaves no files.
+/// Each series gets a subfolder, and its files get names that we choose. Throws Cancelled if the watcher returns false,
+/// and ArchiveError for every other failure; a fetch that throws leaves no files.
 Fetched fetch(const Archive& archive, const std::vector<std::string>& uids, const std::filesystem::path& folder,
               const FetchLimits& limits = {}, const FetchWatcher& watcher = {});
 

@@ -12,7 +12,7 @@ namespace palpate::io {
 /// An empty field matches anything. Texts are UTF-8; * and ? are the archive's wildcards.
 struct ArchiveQuery {
   std::string patient;      ///< part of the name
-  std::string patient_id;   ///< all of it
+  std::string patient_id;   ///< the whole id
   std::string date;         ///< YYYYMMDD, YYYYMMDD-YYYYMMDD, or a range open on one side
   std::string modality;     ///< CT, MR, ...
   std::string description;  ///< part of the study's description

@@ -36,7 +36,7 @@ class Inbox {
 
   std::size_t files() const noexcept { return files_.load(std::memory_order_relaxed); }
   std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
-  /// Of all datasets, including the one being received and those not kept.
+  /// The bytes of all datasets, including the one being received and those not kept.
   std::uint64_t received_bytes() const noexcept { return received_bytes_.load(std::memory_order_relaxed); }
   /// The number of objects of other studies or series, which were not kept.
   std::size_t unasked() const noexcept { return unasked_.load(std::memory_order_relaxed); }

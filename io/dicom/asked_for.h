@@ -13,8 +13,8 @@ bool is_asked_for(std::uint32_t tag);
 /// images.
 bool is_asked_for_of_structures(std::uint32_t tag);
 
-/// The same for the reader of registrations. They are few, because every file beside a structure is read with this
-/// list.
+/// The same for the reader of registrations. The list is short, because every file beside a structure is read with
+/// it.
 bool is_asked_for_of_registrations(std::uint32_t tag);
 
 }  // namespace palpate::io::internal

@@ -22,21 +22,21 @@ bool can_decode(const std::string& transfer_syntax);
 /// have up to 16 bits.
 bool is_packed(const std::string& transfer_syntax);
 
-/// Throws DicomError if `bytes` of this syntax cannot hold so many frames of that format. No coder packs pixels more
-/// densely than the bound used here; so a small file whose header claims 60000 rows takes no memory.
+/// Throws DicomError if `bytes` of this syntax cannot hold that number of frames in that format. No coder packs pixels
+/// more densely than the bound used here; so a small file whose header claims 60000 rows takes no memory.
 void check_density(const std::string& transfer_syntax, const PixelFormat& format, std::size_t frames,
                    std::uint64_t bytes);
 
-/// Why pixels are refused whose syntax can_decode() does not accept; names the compression.
+/// The reason why pixels with a syntax that can_decode() does not accept are refused; it names the compression.
 Text why_not_decoded(const std::string& transfer_syntax);
 
 /// Throws DicomError if deflated data would inflate to an implausible size: more than 256 MiB and 50 times the file, or
 /// more than 8 GiB. `bytes_out` is the claimed size, `bytes_in` the file's.
 void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in);
 
-/// Decodes one frame: `values` holds rows * columns. Returns a breach of the standard in the stream that costs no
-/// pixels, in words for the user; empty if there is none. Throws DicomError with the reason if the stream is damaged or
-/// the image's size is not that of the header.
+/// Decodes one frame: `values` holds rows * columns. Returns, in words for the user, a breach of the standard in the
+/// stream that leaves the pixels readable; empty if there is none. Throws DicomError with the reason if the stream is
+/// damaged or the image's size is not that of the header.
 Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
                   std::span<std::uint16_t> values);
 
@@ -68,7 +68,7 @@ struct JpegFrame {
 std::optional<JpegFrame> jpeg_frame(std::span<const std::byte> bytes);
 
 /// Throws DicomError if a Huffman table of a JPEG stream codes differences of more than `most_bits` (ISO 10918-1
-/// H.1.2.2 knows 16): DCMTK 3.6.7's decoders index tables of 16 or 17 numbers by them, unchecked.
+/// H.1.2.2 allows 16): DCMTK 3.6.7's decoders index tables of 16 or 17 numbers by them, unchecked.
 void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bits);
 
 }  // namespace palpate::io::internal

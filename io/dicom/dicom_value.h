@@ -1,6 +1,6 @@
 #pragma once
 
-/// Attribute values of a DCMTK item, without invented ones: DCMTK's own findAndGetFloat64 writes 0 when it fails, and
+/// Reads attribute values of a DCMTK item, and invents none: DCMTK's own findAndGetFloat64 writes 0 when it fails, and
 /// its conversion from text to number is not correctly rounded.
 
 #include <optional>

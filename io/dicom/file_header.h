@@ -134,13 +134,13 @@ struct FileHeader {
   PixelCoding coding = PixelCoding::native;
   bool big_endian = false;
   bool swapped_words = false;   ///< 8-bit pixels in big-endian 16-bit words
-  bool swapped_wholes = false;  ///< big-endian 32-bit integers that were swapped as wholes, not word by word
+  bool swapped_wholes = false;  ///< big-endian 32-bit integers that were swapped as a whole, not word by word
   DatasetStart start;           ///< where the dataset is
   std::uint64_t pixels_at = 0;  ///< the pixels' offset in the file, or in the inflated dataset
   std::vector<std::vector<Fragment>> fragments;  ///< of each frame, where encapsulated
 
   std::vector<Plane> planes;
-  std::vector<Text> remarks;  ///< what a user should know of its series; its files share the same words
+  std::vector<Text> remarks;  ///< what a user should know of the series; all files of the series share this text
   Text unfit;                 ///< why its images cannot be part of a volume (color, no position); empty if they can
   Text defect;                ///< why its pixels cannot be read (truncated); empty if they can
 };

@@ -17,7 +17,7 @@ class InputFile {
   ~InputFile();
 
   std::uint64_t size() const { return size_; }
-  /// Fills all of `into`. Throws DicomError if the file ends before.
+  /// Fills all of `into`. Throws DicomError if the file ends too early.
   void read(std::uint64_t at, std::span<std::byte> into) const;
 
  private:

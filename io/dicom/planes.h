@@ -9,7 +9,7 @@ class DcmItem;
 namespace palpate::io::internal {
 
 /// The one image of a classic CT or MR file. Sets in `header` the unit of its values and `unfit`,
-/// the reason why it can be no part of a volume (empty: it can).
+/// the reason why it cannot be part of a volume (empty: it can).
 Plane classic_plane(DcmItem& dataset, FileHeader& header);
 
 /// The frames of an enhanced multi-frame file, each from its own functional groups or the shared ones (PS3.3 C.7.6.16).

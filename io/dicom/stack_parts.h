@@ -30,7 +30,7 @@ struct PartedStack {
 /// Some labels may also number the passes of one interleaved acquisition (acquisition, trigger time, times and order).
 /// They separate parts only if the images cannot be such passes: if neighbors overlap by their SliceThickness, or the
 /// combined steps are uneven. In MR, times and numbers never split an evenly spaced stack, even if its slices overlap,
-/// because within one scan they can tie and run backwards. Stacks that follow each other are one.
+/// because within one scan they can be equal or run backwards. Stacks that follow each other are one stack.
 PartedStack part_stack(const SeriesSource& source, std::vector<SeriesSource::Slice> slices);
 
 }  // namespace palpate::io::internal

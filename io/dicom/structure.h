@@ -41,9 +41,9 @@ struct PixelElement {
 };
 
 struct DatasetShape {
-  std::uint64_t header_end = 0;  ///< bytes before the pixel data, or before the first element behind its place, or all
+  std::uint64_t header_end = 0;  ///< bytes before the pixel data; without it, before its place or the end
   std::optional<PixelElement> pixels;
-  /// Where the wanted outermost elements before the pixels are; adjoining ones are one stretch.
+  /// The places of the wanted outermost elements before the pixels. Adjoining elements form one stretch.
   struct Stretch {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
@@ -52,10 +52,10 @@ struct DatasetShape {
   bool has_unknown = false;  ///< whether an element is written with the VR UN
 };
 
-/// Walks over a dataset up to its pixel data without building objects. Throws DicomError if the bytes are no elements
-/// or end early, and for a dataset that would harm a parser: sequences nested deeper than in any defined object (stack
-/// overflow), elements out of order (quadratic time in DCMTK), or millions of elements (memory). `wants` returns
-/// whether a tag (group << 16 | element) is wanted.
+/// Walks over a dataset up to its pixel data without building objects. Throws DicomError if the bytes do not form
+/// elements or end early, and for a dataset that would harm a parser: sequences nested deeper than in any defined
+/// object (stack overflow), elements out of order (quadratic time in DCMTK), or millions of elements (memory). `wants`
+/// returns whether a tag (group << 16 | element) is wanted.
 DatasetShape check_structure(ByteSource& dataset, Encoding encoding, bool (*wants)(std::uint32_t tag));
 
 }  // namespace palpate::io::internal

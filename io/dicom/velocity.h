@@ -14,9 +14,9 @@ class DcmItem;
 namespace palpate::io::internal {
 
 /// The meaning of an image's stored values from its velocity encoding (direction: unit vector in patient space; venc:
-/// cm/s). If the unit of the rescaled values (`rescale_unit`) is a velocity (cm/s, mm/s, m/s), these are used;
-/// otherwise the whole range of the stored bits stands for -venc to venc. Nothing for a magnitude image, or if venc or
-/// direction is missing. Source: PS3.3 C.8.13.5.14, MR Velocity Encoding.
+/// cm/s). If the unit of the rescaled values (`rescale_unit`) is a velocity (cm/s, mm/s, m/s), the rescaled values are
+/// used; otherwise the whole range of the stored bits stands for -venc to venc. Nothing for a magnitude image, or if
+/// venc or direction is missing. Source: PS3.3 C.8.13.5.14, MR Velocity Encoding.
 std::optional<VelocityEncoding> velocity_of(const std::vector<double>& direction, std::optional<double> venc,
                                             const std::string& rescale_unit, const Plane& plane,
                                             const PixelFormat& format);

@@ -3,10 +3,10 @@
 /// The distance between a felt boundary and the true one.
 ///
 /// The boundary is the iso-surface of the interpolated value. Four effects move it. Noise moves it by noise / slope.
-/// Interpolation moves it with its phase between the voxels. The blur of voxel and interpolation moves a curved
-/// boundary towards the center of curvature, by the blur's variance times the mean curvature of the tangent directions.
-/// A level other than the middle of the two sides puts it beside the true boundary: blur leaves only the middle in
-/// place.
+/// Interpolation moves it, depending on its place between the voxels. The blur of voxel and interpolation moves a
+/// curved boundary towards the center of curvature, by the blur's variance times the mean curvature of the tangent
+/// directions. An iso-value other than the mean of the two sides puts it beside the true boundary: blur keeps only the
+/// place of the mean.
 ///
 /// The values of the two sides are read where the value stops rising and falling along the normal. A smooth gradient
 /// may be felt some millimeters away from the boundary, where the value hardly rises; the distance then includes the
@@ -29,7 +29,7 @@ struct BoundaryUncertainty {
   double noise = 0;        ///< standard deviation of the interpolated value, the scan's unit
   double slope = 0;        ///< of the interpolated value across the boundary, unit per mm
   double noise_mm = 0;     ///< one standard deviation of the boundary's place through noise
-  double sampling_mm = 0;  ///< one standard deviation of the same through the phase between voxels
+  double sampling_mm = 0;  ///< one standard deviation of the same through interpolation
   double curvature_mm =
       0;  ///< shift of the boundary on a curved body through blur; positive: into a denser body that is convex
   double level_mm = 0;      ///< distance from the middle of its two sides; positive: on the denser side

@@ -14,10 +14,10 @@ namespace palpate::io {
 /// filtered again from its raw values, never twice. If it already has this filter it is returned unchanged; with no
 /// filter the raw volume is returned. Uses all cores; the bits do not depend on their number.
 ///
-/// Padding stays padding, and counts as the smallest value of its slice for its neighbors. The median, bilateral and
-/// non-local means filters work within each slice. The Gaussian also works across slices, by their true distances. No
-/// filter reaches across missing slices. Throws std::invalid_argument as validate() does, and for a velocity field;
-/// Cancelled.
+/// Padding stays padding. Its neighbors are filtered as if it had the smallest value of its slice. The median,
+/// bilateral and non-local means filters work within each slice. The Gaussian also works across slices, by their true
+/// distances. No filter reaches across missing slices. Throws std::invalid_argument as validate() does, and for a
+/// velocity field. Throws Cancelled.
 std::shared_ptr<const Volume> filtered(const std::shared_ptr<const Volume>& volume, const Filter& filter,
                                        const Progress& progress = {});
 

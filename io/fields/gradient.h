@@ -48,10 +48,10 @@ struct Block {
 class GradientKernel {
  public:
   struct CentralDifferences {};
-  /// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than 64 voxels, and a different
-  /// std::logic_error for no volume.
+  /// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than 64 voxels, and another
+  /// std::logic_error without a volume.
   GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm);
-  /// Central differences. Throws std::logic_error for no volume.
+  /// Central differences. Throws std::logic_error without a volume.
   GradientKernel(std::shared_ptr<const Volume> volume, CentralDifferences);
   ~GradientKernel();
   GradientKernel(const GradientKernel&) = delete;

@@ -39,7 +39,7 @@ struct JointHistogram {
 };
 
 /// Counts every voxel, block by block, so the gradients of the whole volume are never stored. `threads` 0: all cores;
-/// the counts do not depend on their number. Throws std::invalid_argument for empty bins, Cancelled.
+/// the counts do not depend on their number. Throws std::invalid_argument for empty bins, and Cancelled.
 JointHistogram joint_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                const Bins& magnitudes, const Progress& progress = {}, int threads = 0);
 
@@ -66,7 +66,7 @@ using EdgeUse = std::function<void(std::span<const CountedEdge>)>;
 
 /// Counts the voxels with a gradient above the least magnitude (per mm), except padding. Of a volume with more than
 /// some millions of voxels, an evenly spread sample is counted. `threads` 0: all cores; the counts do not depend on
-/// their number. Throws std::invalid_argument for empty bins, Cancelled.
+/// their number. Throws std::invalid_argument for empty bins, and Cancelled.
 LowHighHistogram low_high_histogram(const Volume& volume, const GradientKernel& kernel, const Bins& values,
                                     double least_magnitude, const Progress& progress = {}, int threads = 0);
 /// The same for several least magnitudes, in one pass over the volume: one histogram for each.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The voxels of a tile that have padding in their neighborhoods and so need plane fits of their own. Rows without
-/// padding are settled as a whole; a row with padding is examined in chunks of eight voxels.
+/// padding are decided as a whole; a row with padding is examined in chunks of eight voxels.
 
 #include <algorithm>
 #include <bit>

@@ -34,7 +34,7 @@ inline constexpr int fit_rows = 12;
 /// One slice, or two slices at the same distance on both sides, whose values are added to a sum.
 struct SlicePair {
   const float* below = nullptr;  ///< rows one, p, q
-  const float* above = nullptr;  ///< null if there is but one slice
+  const float* above = nullptr;  ///< null if there is only one slice
   float weight = 0;
   float weight_w = 0;  ///< times the offset along the normal
 };
@@ -49,7 +49,7 @@ inline constexpr int slices_at_once = 4;
 inline constexpr int most_even_pairs = 8;
 /// A slice with pairs of slices around it at even distances.
 struct EvenSlices {
-  const float* const* slices = nullptr;  ///< rows one, p, q: at 0 of the slice, around it of its neighbors
+  const float* const* slices = nullptr;  ///< rows one, p, q: those of the slice at index 0, its neighbors' around it
   std::ptrdiff_t row = 0;                ///< floats from these pointers to the current row
   float middle = 0;                      ///< weight, and weight times offset
   float middle_w = 0;

@@ -41,7 +41,7 @@ FieldSet fields_of(const Volume& volume) noexcept;
 class VolumeFields : public FieldSource {
  public:
   /// Prepares only what the wanted fields need. `scale_mm` is the Gaussian's; without a Gaussian it is ignored. Throws
-  /// std::invalid_argument for no volume, for fields that a scan does not have, and for a scale out of range.
+  /// std::invalid_argument without a volume, for fields that a scan does not have, and for a scale out of range.
   VolumeFields(std::shared_ptr<const Volume> volume, FieldSet wanted, double scale_mm,
                const FieldOptions& options = {});
   ~VolumeFields() override;

@@ -23,7 +23,7 @@ void weigh_column(const float* rows, const Taps& taps, int begin, int end, float
 /// A slice, or two slices at the same distance on both sides.
 struct WeightPair {
   const float* below = nullptr;  ///< rows of a plane's sums
-  const float* above = nullptr;  ///< null if there is but one
+  const float* above = nullptr;  ///< null if there is only one
   float weight = 0;
   float offset = 0;  ///< along the normal
 };

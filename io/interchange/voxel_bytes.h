@@ -15,11 +15,11 @@ class VoxelBytes {
   VoxelBytes(const VoxelBytes&) = delete;
   VoxelBytes& operator=(const VoxelBytes&) = delete;
   virtual ~VoxelBytes() = default;
-  /// Fills all of `into`. Throws DicomError if the bytes end before.
+  /// Fills all of `into`. Throws DicomError if the bytes end too early.
   virtual void read(std::span<std::uint8_t> into) = 0;
   virtual void skip(std::uint64_t count);
-  /// Must be called after the last byte. Throws DicomError if the unpacked bytes have another checksum than the file
-  /// says.
+  /// Must be called after the last byte. Throws DicomError if the checksum of the unpacked bytes is not the
+  /// file's.
   virtual void finish() {}
 };
 
@@ -28,7 +28,7 @@ std::unique_ptr<VoxelBytes> voxel_bytes(const VoxelFile& file);
 
 /// Calls `slice` for the slices `begin` to `end` - 1 of a volume (counted from 0). They lie along the file's third
 /// axis. `n` is the slice's number in the file; `raw` are its numbers, in this machine's byte order. Ends early if
-/// `slice` returns false. Throws DicomError if the file ends before its voxels do, or, after a whole volume, if the
+/// `slice` returns false. Throws DicomError if the file ends before the last voxel, or, after a whole volume, if the
 /// checksum is wrong.
 void read_raw_slices(const VoxelFile& file, int volume, int begin, int end,
                      const std::function<bool(int n, std::span<const std::uint8_t> raw)>& slice);

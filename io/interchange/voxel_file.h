@@ -31,10 +31,10 @@ struct VoxelFile {
   enum class Packing : std::uint8_t {
     none,
     whole,      ///< the whole file is gzipped
-    behind_it,  ///< all after the header is packed (gzip or zlib)
-    bzip2,      ///< all after the header is packed by bzip2
+    behind_it,  ///< everything after the header is packed (gzip or zlib)
+    bzip2,      ///< everything after the header is packed by bzip2
     ascii,      ///< numbers as text
-    hex         ///< bytes as two digits each
+    hex         ///< each byte as two hexadecimal digits
   };
   /// The meaning of several numbers of one voxel.
   enum class Beside : std::uint8_t { labels, volumes, colors };
@@ -86,7 +86,7 @@ struct LabelFormat {
   /// Endings of the files that are written for structures, the usual one first; the rest is empty. All are empty if
   /// `bytes` is null.
   std::array<std::string_view, 2> written{};
-  /// The whole file with this ending, one of `written`. The slices of the image lie evenly.
+  /// The whole file with this ending, one of `written`. The image's slices are evenly spaced.
   std::string (*bytes)(const LabelImage& image, std::string_view ending) = nullptr;
 };
 /// All formats, in the order in which a file is tried.
@@ -117,8 +117,8 @@ struct VoxelMap {
 /// sheared. They ascend along i x j. Throws DicomError if no two axes are at right angles, or a size is impossible.
 void place(const VoxelMap& map, const glm::ivec3& size, VoxelFile& file);
 
-/// Notes that a voxel has so many numbers: red, green, blue and perhaps alpha. Throws DicomError unless these are 3 or
-/// 4 numbers of 8 or 16 bits.
+/// Records that each voxel has this many numbers: red, green, blue and perhaps alpha. Throws DicomError unless these
+/// are 3 or 4 numbers of 8 or 16 bits.
 void read_as_colors(double numbers, VoxelFile& file);
 /// Throws DicomError if it is not a valid count.
 int count_of_volumes(double count);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// From a field whose zero is the surface to the distance from it, by each node's closest point on the surface. The
-/// field itself is no distance where a structure is thin or hollow.
+/// Makes the distance from a surface, given as the zero of a field, from each node's closest point on the surface. The
+/// field itself is not a distance where a structure is thin or hollow.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -21,8 +21,8 @@ inline constexpr float nowhere = 1e9F;
 /// (Danielsson, "Euclidean distance mapping", 1980). The same to the last bit on any number of threads.
 std::vector<Vec3f> closest_points(const NodeBricks& bricks, const std::vector<float>& f, double band_mm, int threads);
 
-/// The first part of closest_points(): the closest points of one brick's nodes, on the edges to neighbors on the other
-/// side and by Newton steps; `nowhere` if the surface is more than two nodes away.
+/// The first part of closest_points(): the closest points of one brick's nodes, found on the edges to neighbors on the
+/// other side and by Newton steps; `nowhere` if the surface is more than two nodes away.
 void points_near_surface(const NodeBricks& bricks, const std::vector<float>& f, std::size_t slot, Vec3f* closest);
 /// The second part: takes over a neighbor's point if it is closer. `unsettled`: bricks with nodes that may be farther
 /// from their own point than from a neighbor's; if empty, all bricks.

@@ -22,11 +22,11 @@ struct CoarseLattice {
 /// A lattice over a box, with a spacing that balances interpolation error and memory.
 CoarseLattice coarse_lattice(const Vec3& low_mm, const Vec3& high_mm);
 
-/// For each node the closest of some points (patient space, mm), from neighbor to neighbor; `nowhere` if there are no
-/// points.
+/// For each node the closest of some points (patient space, mm), passed from neighbor to neighbor; `nowhere` if there
+/// are no points.
 std::vector<Vec3f> closest_of(const CoarseLattice& coarse, const std::vector<Vec3f>& points);
 
-/// Signed distances of its nodes, mm, from the closest points of the bricks' nodes and from neighbor to neighbor
+/// Signed distances of its nodes, mm, from the closest points of the bricks' nodes, passed from neighbor to neighbor
 /// (Danielsson 1980). The sign of `f` gives the side of the bricks' nodes.
 std::vector<float> coarse_distances(const CoarseLattice& coarse, const NodeBricks& bricks, const std::vector<float>& f,
                                     const std::vector<Vec3f>& closest);

@@ -7,8 +7,8 @@
 namespace palpate::io {
 
 struct ComparedOutline {
-  SignedDistance distance;  ///< exact up to `true_to_mm` from the surface; farther away any value beyond that
-  StructureBox box;         ///< contains it, but for small parts perhaps
+  SignedDistance distance;  ///< exact up to `true_to_mm` from the surface; farther away any larger value
+  StructureBox box;         ///< contains the structure, perhaps without small parts
   double true_to_mm = 4;
 };
 

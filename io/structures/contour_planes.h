@@ -1,6 +1,6 @@
 #pragma once
 
-/// Planes of distances from closed contours: of every node the distance to the edge of the filled region
+/// Planes of distances from closed contours: for every node the distance to the edge of the filled region
 /// (contour_region.h).
 
 #include "io/structures/distance_field.h"
@@ -35,7 +35,7 @@ struct ContourStack {
 /// area. A missing plane between two others is not an empty one: the surface goes on through it.
 ContourStack stack_of(const std::vector<Contour>& contours, const ContourRule& rule = {});
 
-/// Whether two neighboring planes at that distance (mm) belong to one body. If not, both end between them.
+/// Whether two neighboring planes at that distance (mm) belong to one body. If not, the bodies end between them.
 bool is_one_body(const ContourStack& stack, double apart_mm);
 
 /// Each plane's polygons form a slab that reaches half of the way to its neighbors, or half a step at the ends. Volume

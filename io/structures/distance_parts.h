@@ -21,7 +21,7 @@ struct DistanceParts {
   double blend_mm = 2;  ///< beyond the reach: width of the blend from bricks to coarse lattice
   NodeBricks near;
   Vec3 origin{0};                   ///< of the first lattice, mm: an edit may put bricks before it
-  glm::ivec3 shift{0};              ///< nodes from that origin back to near's own
+  glm::ivec3 shift{0};              ///< from that origin back to the origin of `near`, in nodes
   glm::dmat3 to_node{1};            ///< from mm to nodes
   glm::dmat3 from_node{1};          ///< a slope per node to a gradient per mm
   std::vector<const float*> brick;  ///< of each slot: its wide^3 nodes, mm

@@ -27,9 +27,9 @@ struct Patch {
   std::vector<std::vector<std::uint32_t>> near{};  ///< by brick of the box: stretches that may lie within_mm of it
   std::vector<float> f{};                          ///< of the nodes of `bricks`
   std::vector<float> before_mm{};                  ///< likewise: the old distance
-  std::vector<Vec3f> closest{}, kept{};  ///< on the new surface; on the old one if that point is still on the surface
-  std::vector<Vec3f> lost{};             ///< points of the old surface that may be gone
-  std::vector<float> mm{};               ///< likewise: the new distance
+  std::vector<Vec3f> closest{}, kept{};            ///< on the new surface; `kept`: old points still on the surface
+  std::vector<Vec3f> lost{};                       ///< points of the old surface that may be gone
+  std::vector<float> mm{};                         ///< likewise: the new distance
 
   std::size_t box_at(const glm::ivec3& place) const {
     const glm::ivec3& n = bricks.lattice.bricks;

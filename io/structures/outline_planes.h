@@ -29,7 +29,7 @@ struct PlaneDistances {
 struct OutlinePlanes {
   NodeLattice lattice;
   std::vector<int> node;  ///< of each plane, ascending: its node along the third axis
-  /// The lattice of every 2^coarser-th node along each axis still contains all planes, and hardly a node between them.
+  /// The lattice of every 2^coarser-th node along each axis still contains all planes, and almost no node between them.
   int coarser = 0;
   /// The largest possible distance of the surface from the nearest point that is known to be on its other side, mm.
   double play_mm = 1;

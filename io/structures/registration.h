@@ -31,8 +31,8 @@ struct Registration {
 /// if the dataset is neither.
 std::optional<Registration> registration_in(DcmDataset& dataset, const std::filesystem::path& path);
 
-/// The motion from one frame of reference to another, or the reason for its absence. Both empty if no registration has
-/// both.
+/// The motion from one frame of reference to another, or the reason for its absence. Both are empty if no registration
+/// contains both frames.
 struct Joined {
   std::optional<RigidMotion> motion;
   std::filesystem::path file;  ///< the registration's file

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The smoothest surface with every voxel's center on its own side. It is found by alternation: of all fields f that
-/// keep the signs and equal the surface's distance some way from it, the one with the least integral of (Laplacian
-/// f)^2; then the distance from the surface of f. It converges to the distance with the least bending: a ball stays a
+/// The smoothest surface with every voxel's center on its own side. Two steps alternate. One finds, of all fields f
+/// that keep the signs and equal the distance farther away, the one with the least integral of (Laplacian f)^2. The
+/// other finds the distance from the surface of f. It converges to the distance with the least bending: a ball stays a
 /// ball. Sources: Lempitsky, "Surface extraction from binary volumes with higher-order smoothness", CVPR 2010, for the
 /// signs as bounds. Using the distance instead of bounds far away keeps the surface from flattening.
 

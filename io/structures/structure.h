@@ -81,11 +81,11 @@ struct Structure {
 struct StructureCatalogue {
   std::vector<Structure> structures;        ///< by file, then by number
   std::vector<Registration> registrations;  ///< found among them, by file
-  std::vector<SkippedFile> skipped;         ///< files that claim to hold structures and do not
+  std::vector<SkippedFile> skipped;         ///< files that claim to hold structures but do not
 };
 
 /// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored.
-/// Throws DicomError if a path does not exist; Cancelled.
+/// Throws DicomError if a path does not exist, and Cancelled.
 StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
 /// The registrations among these files, in their order. Reads headers alone. Throws Cancelled.

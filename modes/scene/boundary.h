@@ -9,7 +9,7 @@
 
 namespace palpate::modes {
 
-/// 1 within the tissue's range, 0 beyond its soft ends, a line between; infinite ends are open.
+/// 1 within the tissue's range, 0 beyond its soft ends, linear in between; an infinite end has no limit.
 TransferFunction gate_of(const Tissue& tissue);
 
 struct Boundary {

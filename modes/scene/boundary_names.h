@@ -28,10 +28,10 @@ struct NamedPair {
 /// is added. Fat beside soft tissue is "Soft tissue" too; any other wall within a tissue is "Wall in lung or foam".
 ///
 /// Other units: the values say only which tissues a boundary lies between, in order of brightness. A likely name has a
-/// question mark: "Skin?" for the boundary that rises least from the darkest tissue; in a head (head_shape.h), "Scalp
-/// and brain surface?" for it, "Gray and white matter?" for the boundary between the next two, and "Scalp fat or CSF?"
-/// for the one from the darkest to the third. Numbers in names are whole, or rounded to a hundredth of `range`, the
-/// range of the scan's values, if that is less than 1.
+/// question mark: "Skin?" for the boundary with the smallest rise from the darkest tissue; in a head (head_shape.h),
+/// "Scalp and brain surface?" for the same, "Gray and white matter?" for the boundary between the next two, and "Scalp
+/// fat or CSF?" for the one from the darkest to the third. Numbers in names are whole, or rounded to a hundredth of
+/// `range`, the range of the scan's values, if that is less than 1.
 struct NamingOptions {
   bool hounsfield = false;
   bool is_head = false;
@@ -39,8 +39,8 @@ struct NamingOptions {
 };
 std::vector<std::string> boundary_names(std::span<const NamedPair> boundaries, const NamingOptions& options);
 
-/// The name of a boundary at one site: "Skin, lung surface and table" is "Skin" at the skin, and "Skin" alone is the
-/// table's name at the table. Names made of other words do not change, and neither does any name elsewhere.
+/// The name of a boundary at one site: "Skin, lung surface and table" is "Skin" at the skin, and plain "Skin" gets the
+/// table's name at the table. Names made of other words do not change. Site::elsewhere changes none.
 std::string name_at(const std::string& name, Site site);
 
 /// The name of the same boundary when it is crossed the other way.

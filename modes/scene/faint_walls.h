@@ -4,8 +4,8 @@
 /// organ against the next.
 ///
 /// The scan decides how faint a wall may be. Its two sides have to differ by four standard deviations of the tissue's
-/// own values (noise and texture). Their hills have to be separate, which takes 3.5 bandwidths. An edge counts if its
-/// gradient is steeper than noise. So a scan of one noisy tissue has no walls.
+/// own values (noise and texture). Their hills have to be at least 3.5 bandwidths apart. An edge counts if its gradient
+/// is steeper than noise. So a scan of one noisy tissue has no walls.
 
 #include <span>
 #include <vector>
@@ -28,7 +28,7 @@ struct FaintWall {
 std::vector<FaintWall> faint_walls(const io::LowHighHistogram& edges, const TissueHills& tissues,
                                    std::span<const Noise> noise, double range, double voxels_at_boundaries, bool is_ct);
 
-/// Per mm, for a gradient at that scale: a less steep edge may be noise, or is fainter than any wall that is found.
+/// Per mm, at scale_mm: a less steep edge may be noise, or is fainter than any wall that is found.
 double least_gradient_of_walls(const ScanNoise& noise, double scale_mm);
 
 }  // namespace palpate::modes::internal

@@ -20,12 +20,12 @@ std::vector<const ActiveMode*> holding_modes(const Plan& plan);
 /// of threads may use it.
 ///
 /// If no mode reads low or high, the value is the voxel's own. If one does, voxels are sampled as in a tick, but only
-/// where they can be felt: the value where some mode's gradient factor is not zero; low and high where that mode's
-/// value factor is not zero either.
+/// where a mode can be felt. The value is sampled where some mode's gradient factor is not zero, low and high only
+/// where its value factor is not zero either.
 class FeltStrength {
  public:
-  /// All of them have to outlive it. `value` and `scale_mm` (sigma of the gradients' Gaussian) are used only with low
-  /// and high.
+  /// All arguments have to outlive this object. `value` and `scale_mm` (sigma of the gradients' Gaussian) are used only
+  /// with low and high.
   FeltStrength(const io::Volume& volume, std::span<const ActiveMode* const> modes, io::ValueMethod value,
                double scale_mm);
 

@@ -21,10 +21,10 @@ struct LeftOut {
   std::string what;                            ///< "friction", "Hessian", "exact solver", ...
   std::string why;                             ///< "strength is zero everywhere"
   std::string saves;                           ///< "one gradient a tick", ...
-  io::FieldSet field = io::FieldSet::none;     ///< the field that it is, if any
-  std::optional<std::size_t> mode = {};        ///< the index of the scene's mode that it is, if any
-  const solver::SolverType* solver = nullptr;  ///< the solver that it is, if any
-  std::optional<io::SliceRange> slices = {};   ///< the slices of the scan that it is, if any
+  io::FieldSet field = io::FieldSet::none;     ///< the field, if a field was left out
+  std::optional<std::size_t> mode = {};        ///< the index in the scene, if a mode was left out
+  const solver::SolverType* solver = nullptr;  ///< the solver, if a solver was left out
+  std::optional<io::SliceRange> slices = {};   ///< the slices of the scan, if slices were left out
 };
 
 /// Immutable once made: sessions share it between threads by pointer.

@@ -1,11 +1,11 @@
 #pragma once
 
-/// The regions of a CT, as far as they follow without a guess: air outside the body or inside it, the body, the table.
+/// The regions of a CT that can be found without a guess: air outside the body or inside it, the body, the table.
 ///
 /// On a grid of about 2.5 mm, each cell is the mean of its voxels, and air is below -400 HU. Air is the room's if it is
-/// connected with the sides of the scan and most of it at these sides is empty (below -900 HU, which a lung cut by the
-/// scan is not). The body is everything thicker than 15 mm, and what lies on it. Thin things beside it are the table.
-/// Air within the body is lung if it is large and has a lung's values.
+/// connected with the sides of the scan and most of it at these sides is below -900 HU (a lung cut by the scan is not).
+/// The body is everything thicker than 15 mm, and what lies on it. Thin things beside it are the table. Air within the
+/// body is lung if it is large and has a lung's values.
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -30,9 +30,9 @@ class ScanNoise {
 
   const Spread& spread() const noexcept { return spread_; }
   /// The noise of each range between ascending limits: limits.size() + 1 ranges, the outermost open. Values are
-  /// compared over two scales of the kernel, the distance between the two sides of a boundary: so noise smeared by
-  /// reconstruction counts in full, and texture counts too. Edges are too few to matter. The scan's lowest value is
-  /// left out: a background clipped there has no noise.
+  /// compared at a distance of two scales of the kernel, which is that between the two sides of a boundary. So noise
+  /// smeared by reconstruction counts in full, and texture counts too. Edges are too few to matter. The scan's lowest
+  /// value is left out: a background clipped there has no noise.
   std::vector<Noise> between(std::span<const double> limits) const;
 
  private:

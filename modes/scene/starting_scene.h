@@ -20,7 +20,7 @@ std::string starting_scene(const io::Volume& volume);
 /// and the modality alone.
 std::string part_of_body(const io::Volume& volume);
 
-/// Whether its attributes say that it is of the head.
+/// Whether the scan's attributes say that it shows the head.
 bool is_of_head(const io::Volume& volume);
 
 /// A starting scene in the list for a scan.

@@ -34,8 +34,8 @@ class Strength {
   /// gradient.
   void add_to(std::span<const double> values, std::span<const double> magnitudes,
               std::span<double> sums) const noexcept;
-  /// Of at most most_at_once samples with these data, those among `bits` (the first sample is the lowest) at which no
-  /// factor of that datum is zero.
+  /// For at most most_at_once samples with these data: the bits of `bits` (the first sample's is the lowest) at whose
+  /// samples no factor of that datum is zero.
   std::uint64_t not_zero(Datum of, std::span<const double> data, std::uint64_t bits) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;

@@ -18,10 +18,10 @@ class StrengthTable {
 
   /// In the tick: does not allocate or throw. NaN gives the value of the first node.
   double operator()(double at) const noexcept;
-  /// Multiplies each product by the value at its datum. False if all products would be zero; then they may be
-  /// unchanged.
+  /// Multiplies each product by the value at its datum. Returns false if all products would be zero; then the products
+  /// may be left unchanged.
   bool multiply(std::span<const double> at, std::span<double> products) const noexcept;
-  /// Of at most 64 data, those among `bits` (the first is the lowest) at which the value is not zero.
+  /// For at most 64 data: the bits of `bits` (the first datum's is the lowest) at whose data the value is not zero.
   std::uint64_t not_zero(std::span<const double> at, std::uint64_t bits) const noexcept;
 
  private:

@@ -35,16 +35,16 @@ struct Suggestion {
   Scene scene;
   /// For each of the scene's tissues, scan's unit: first those in ascending order, then the sides of fainter walls.
   std::vector<double> typical;
-  std::vector<FoundBoundary> boundaries;  ///< most frequent first, as the scene's modes
+  std::vector<FoundBoundary> boundaries;  ///< the most frequent first, in the order of the scene's modes
   io::LowHighHistogram edges;             ///< the counts in which they were found
 };
 
 /// Tissues of a CT are named by their HU (air, lung or foam, fat, soft tissue, bone, metal), others by their rank.
 /// Every boundary becomes a surface with a name (boundary_names.h), a switch, and its tissue's color (tissue_colors.h).
-/// If two are of one tissue, the second gets another color that the color-blind can tell from the rest. Its strength
-/// rises with the gradient and begins at the boundary's middle, so that it is felt there. The way back, from the higher
-/// to the lower values, is a second surface of the same color, switched off, since a hand comes from outside. A scan
-/// without boundaries gives a scene without modes. Throws io::Cancelled.
+/// If two surfaces have one tissue, the second gets another color that the color-blind can tell from the rest. A
+/// surface's strength rises with the gradient and begins at the boundary's middle, so that it is felt there. The way
+/// back, from the higher to the lower values, is a second surface of the same color, switched off, since a hand comes
+/// from outside. A scan without boundaries gives a scene without modes. Throws io::Cancelled.
 Suggestion suggest(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress = {}, int threads = 0);
 
 }  // namespace palpate::modes

@@ -20,8 +20,8 @@ struct BinRange {
 };
 
 /// The tissues among the edges whose two sides lie in the range and at least `least_bins` apart; the counts are
-/// smoothed by a Gaussian of `bandwidth` (scan's unit). In CT, a tissue softer than bone ends nearer to its softer
-/// side.
+/// smoothed by a Gaussian of `bandwidth` (scan's unit). In CT, the limit between bone and a softer tissue is nearer to
+/// the softer one.
 TissueHills tissue_hills(const io::LowHighHistogram& edges, BinRange range, int least_bins, double bandwidth,
                          bool is_ct);
 

@@ -11,12 +11,12 @@
 /// The sampled V cannot be that value. It is right on average, but between voxels its iso-surfaces are rough through
 /// interpolation and noise; a hand would feel each voxel as a wobble of the anchor and a flicker of the strength. The
 /// gradient comes from a filter and is smooth, but its integral along the way drifts. The *level* combines the two.
-/// Along a surface it follows the integral of the gradient from tick to tick (trapezoidal, so that a circle is closed
-/// to third order). Across it, where a proxy that is not held is pushed through, it follows V: at a plate thinner than
-/// the filter the gradient is a part of the slope, and its integral would never reach the plate's values. While the
-/// proxy is held, it also returns to V plus the offset that it had when the hold began, over
-/// some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A proxy that does not move keeps
-/// its level, and its anchor, to the last bit.
+/// Along a surface it follows the integral of the gradient from tick to tick (by the trapezoidal rule, so that a closed
+/// circle leaves an error of third order only). Across it, where a proxy that is not held is pushed through, it follows
+/// V: in a plate thinner than the filter, the filtered gradient is smaller than the slope, and its integral would never
+/// reach the plate's values. While the proxy is held, it also returns to V plus the offset that it had when the hold
+/// began, over some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A proxy that does
+/// not move keeps its level, and its anchor, to the last bit.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,7 @@ enum class HoldState : std::uint8_t {
   yielding  ///< pushed through a surface that gives its full strength
 };
 
-/// How two surfaces hold the proxy together: held by one takes precedence over yielding through the other.
+/// The common state of two surfaces: held by one takes precedence over yielding through the other.
 constexpr HoldState joined(HoldState one, HoldState other) noexcept {
   if (one == HoldState::held || other == HoldState::held) return HoldState::held;
   return std::max(one, other);
@@ -46,7 +46,7 @@ struct HeldSurface {
   HoldState before = HoldState::none;  ///< in the previous tick
   double level = 0;                    ///< at the last place sampled, the scan's unit
   double offset = 0;                   ///< of the level from V, at the start of the hold
-  double held_level = 0;               ///< V_c
+  double held_level = 0;               ///< the level at which the proxy is held
   double value = 0;                    ///< V at the last place sampled, the scan's unit
   Vec3 place_mm{0};                    ///< last place sampled, patient space
   Vec3 gradient{0};                    ///< there, per mm

@@ -32,7 +32,7 @@ struct StepTimes {
   std::uint64_t solve = 0;   ///< the balance
 };
 
-/// Splits the time between its laps.
+/// Divides the elapsed time among the parts of a step.
 class Stopwatch {
  public:
   void start() noexcept { last_ = clock_count(); }

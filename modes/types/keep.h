@@ -7,7 +7,7 @@
 /// the force is bounded by the strength, continuous, and zero outside the margin. A force is evaluated at the old
 /// proxy, so one that rises as steeply as the coupling's stiffness would oscillate: it is limited to half of that, and
 /// the plane takes the rest. The margin is in mm of patient and the coupling in mm of hand, so the workspace's scale
-/// counts.
+/// matters.
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -40,7 +40,7 @@ inline void place_keep(const ActiveMode& mode, const Place& place, double outwar
   const io::Distance distance = place.sample.distance[n];
   const double way = -outward * distance.mm;
   if (!(way < mode.margin_mm)) {
-    return;  // of most structures, in most ticks
+    return;  // the usual case: the proxy is outside the margin
   }
   const double part = keep_part(way, mode.margin_mm);
   if (!(part > 0)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Errors that a user can mend. The programs turn each into an exit code.
+/// Errors that a user can correct. The programs turn each into an exit code.
 
 #include "solver/text/message.h"
 

@@ -14,7 +14,7 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
   ~Interruptible();
 
-  /// Whether one of these signals has come since the latest Interruptible began.
+  /// Whether one of these signals has come since the latest Interruptible was made.
   static bool interrupted() noexcept;
 
  private:

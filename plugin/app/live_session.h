@@ -74,7 +74,7 @@ class LiveSession {
   /// N/m: the stiffness that is felt. A scene may ask for more than the stylus renders stably.
   double stiffness_n_per_m() const noexcept { return felt_.plan ? felt_.plan->stiffness_n_per_m : 0; }
 
-  /// Makes the clocks of the servos of later connect() calls, for a given period (s). For tests only.
+  /// Sets a function that makes the servo's clock at each later connect(), for a given period (s). For tests only.
   using MakeClock = std::function<std::unique_ptr<ServoClock>(double period_s)>;
   void set_clock(MakeClock make) { make_clock_ = std::move(make); }
 
@@ -102,7 +102,7 @@ class LiveSession {
   void clear_fault() noexcept;
   /// As Session::press(), until the session ends or restarts.
   void press(std::uint32_t buttons) noexcept;
-  /// The orientation of the stylus, device frame. None if it does not measure one, or if none is connected.
+  /// The orientation of the stylus, device frame. None if the stylus does not measure it, or if no stylus is connected.
   std::optional<glm::dquat> orientation() const noexcept;
   /// Opens the lost stylus again, without a force until feel(). The recording ends. Throws what Stylus::open() throws;
   /// the stylus is then disconnected.

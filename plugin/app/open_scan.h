@@ -1,7 +1,7 @@
 #pragma once
 
-/// From a series to a scan with its first scene: the same for command line, panel and server, and for scans from a
-/// folder, an archive or a server.
+/// Opens a series as a scan with its first scene, in the same way for command line, panel and server, and for scans
+/// from a folder, an archive or a server.
 
 #include <string>
 

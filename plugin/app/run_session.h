@@ -1,7 +1,7 @@
 #pragma once
 
-/// Runs a session from beginning to end and records it: at the clock's pace on the servo thread, or as fast as possible
-/// if the stylus is only simulated.
+/// Runs a session from beginning to end and records it: in real time on the servo thread, or as fast as possible if the
+/// stylus is only simulated.
 
 #include <cstdint>
 #include <filesystem>
@@ -31,9 +31,9 @@ struct SessionRun {
 
 struct SessionRunResult {
   RecorderStatus recorder;
-  device::RealtimeStatus realtime;  ///< of the servo thread, at the clock's pace
+  device::RealtimeStatus realtime;  ///< of the servo thread, if it runs in real time
   std::uint64_t missed = 0;         ///< deadlines without a tick
-  bool interrupted = false;         ///< by SIGINT or SIGTERM: ended properly
+  bool interrupted = false;         ///< by SIGINT or SIGTERM; the session was still ended properly
 };
 
 /// Records to the file (`<file>.partial` until the end). Throws errors of opening the stylus and the file.

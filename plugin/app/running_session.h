@@ -83,7 +83,7 @@ class RunningSession {
 
   /// The status of the ended recording; none if nothing was recorded.
   std::optional<RecorderStatus> stop_recording();
-  /// After stop_recording(): continues in another file, with the first tick that the previous one does not have.
+  /// After stop_recording(): continues in another file, with the first tick that is not in the previous file.
   void record_to(const RecordingTo& recording);
 
   /// Stops the servo and closes the stylus. The ring stays readable.

@@ -43,7 +43,7 @@ std::size_t volumes_of(const io::Catalogue& catalogue, const std::string& uid);
 /// Index of the only volume. None if there is no volume, or more than one.
 std::optional<std::size_t> only_scan(const io::Catalogue& catalogue);
 
-/// Indices of all choices. The default comes first: the series of the DICOM file `path`, else io::choose_first().
+/// Indices of all choices. The default comes first: the series of the DICOM file `path`, else io::choose_first()'s.
 std::vector<std::size_t> choices(const io::Catalogue& catalogue, const std::filesystem::path& path);
 
 /// The result of find_scan(), or the first of choices() if the name is empty. Throws io::DicomError that lists the

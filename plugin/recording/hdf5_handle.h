@@ -35,7 +35,7 @@ class Handle {
       close_(id_);
     }
   }
-  operator hid_t() const { return id_; }  // NOLINT: HDF5's calls take it as it is
+  operator hid_t() const { return id_; }  // NOLINT: HDF5's functions take the identifier itself
 
   /// Not closed after a failed write, because closing would write again.
   void forget() noexcept { id_ = H5I_INVALID_HID; }
@@ -51,7 +51,7 @@ inline void check(herr_t status, Step what) {
   }
 }
 
-/// By default HDF5 prints its error stack to stderr, separately in each thread; our exceptions carry it instead. And if
+/// By default HDF5 prints its error stack to stderr, separately in each thread; here exceptions report it. And if
 /// a file could not be written, HDF5 must not write to it again when the program ends.
 inline void silence() {
   H5dont_atexit();

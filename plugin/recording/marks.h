@@ -42,17 +42,17 @@ struct MarkedPath {
   double touched_mm = 0;  ///< length in contact with a boundary; NaN: unknown
 };
 
-/// Whether a boundary held the stylus all along a path, nowhere, or on parts of it.
+/// Whether a boundary held the stylus along the whole path, nowhere, or on parts of it.
 enum class PathContact { all_along, nowhere, partly, unknown };
 PathContact contact_of(const MarkedPath& path);
 
-/// Between two marks.
+/// The distance between two marks.
 struct MarkedDistance {
   std::size_t from = 0, to = 0;  ///< indices of marks
   double mm = 0;
 };
 
-/// At a mark, between two others.
+/// The angle at a mark, between two others.
 struct MarkedAngle {
   std::size_t from = 0, at = 0, to = 0;  ///< indices of marks
   double degrees = 0;

@@ -1,9 +1,9 @@
 #pragma once
 
 /// Records a session while it runs: a separate thread takes the ticks from the ring and writes them. The servo never
-/// waits for it. A slow disk costs nothing until the ring has gone round (TickRing::default_ticks: 65 s at 1 kHz);
-/// ticks lost after that are counted, and the loss is marked in the file. If the disk is full or gone, the recording
-/// ends but the session goes on; what was flushed (once a second) stays readable.
+/// waits for it. A slow disk loses no ticks until the ring is full (TickRing::default_ticks: 65 s at 1 kHz); ticks lost
+/// after that are counted, and the loss is marked in the file. If the disk is full or gone, the recording ends but the
+/// session goes on; what was flushed (once a second) stays readable.
 
 #include <atomic>
 #include <chrono>
@@ -28,10 +28,10 @@
 namespace palpate::plugin {
 
 struct RecorderOptions {
-  std::uintmax_t spare_bytes = 64U << 20U;  ///< kept free on the disk for other programs: recording ends before
+  std::uintmax_t spare_bytes = 64U << 20U;  ///< kept free on the disk: the recording ends before less is left
   std::optional<std::uint64_t> first_tick;  ///< of the ring; by default the next new one
   /// Ticks that the recording thread reaches later than this many ticks are recorded without KnownTo. Otherwise, after
-  /// a delay by the disk, fields would be computed far from the stylus.
+  /// a slow write, fields would be computed at places far from the stylus.
   std::uint64_t most_behind = 250;
   /// Called by the recording thread before each batch is written. Tests use it to make a disk slow.
   std::function<void()> before_write;

@@ -75,7 +75,7 @@ struct Recording {
   std::vector<TickRecord> ticks;
   std::vector<PrimitiveRecord> shares;  ///< tick by tick, in the order of the primitives
   /// One for each tick: at 95 of 100 places the true boundary is within this of the proxy, mm
-  /// (io/fields/boundary_uncertainty.h). NaN if no boundary of the scan holds the proxy, while a scene changes, and if
+  /// (io/fields/boundary_uncertainty.h). NaN if no boundary of the scan holds the proxy, while a scene changes, or if
   /// the recording thread was far behind. Empty in recordings of versions before 0.2.0.
   std::vector<double> known_to_mm;
   std::vector<SceneRecord> scenes;
@@ -98,7 +98,7 @@ std::vector<ScanFrame> scan_frames_of(const Recording& recording);
 /// The registrations that placed structures on the scan, each once.
 std::vector<RegisteredStructure> registered_of(const Recording& recording);
 
-/// One line a tick, every member a column. Throws std::runtime_error naming the file.
+/// One line for each tick, one column for each member. Throws std::runtime_error naming the file.
 void write_csv(const Recording& recording, const std::filesystem::path& file);
 
 }  // namespace palpate::plugin

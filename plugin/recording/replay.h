@@ -1,6 +1,6 @@
 #pragma once
 
-/// Replays a recorded session tick by tick, with the same poses, times, scenes and commands; so, with the same build,
+/// Replays a recorded session tick by tick, with the same poses, times, scenes and commands. So, with the same build,
 /// the forces are the same to the last bit.
 
 #include <cstdint>

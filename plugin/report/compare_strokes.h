@@ -23,15 +23,15 @@ struct Comparison {
 };
 
 /// Both paths are cut into steps of half a millimeter of the hand. That is more than its tremor, so neither speed nor
-/// pauses count. The steps are matched in order, with the least sum of squared distances between matched steps (dynamic
-/// time warping: Sakoe and Chiba, IEEE Trans. ASSP 26, 1978). The force of a step is the mean over its ticks. If
-/// several steps of the second recording match one of the first, their mean is taken.
+/// pauses matter. The steps are matched in order, with the least sum of squared distances between matched steps
+/// (dynamic time warping: Sakoe and Chiba, IEEE Trans. ASSP 26, 1978). The force of a step is the mean over its ticks.
+/// If several steps of the second recording match one of the first, their mean is taken.
 Comparison compare_strokes(const RecordedSession& first, const RecordedSession& second);
 
 /// Both forces, their difference, and the distance between the paths, along the first path.
 std::vector<Chart> charts_of(const Comparison& comparison, const std::string& first, const std::string& second);
 
-/// A line a step. Throws std::runtime_error naming the file.
+/// One line for each step. Throws std::runtime_error naming the file.
 void write_csv(const Comparison& comparison, const std::filesystem::path& file);
 
 /// The result in a sentence or two.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Results from marks that go back into the scan's study.
+/// Results of marks that are stored in the scan's study.
 
 #include <filesystem>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace palpate::plugin {
 
-/// The marks, distances and paths for a report. Angles are left out: TID 1500 has no length for them.
+/// The marks, distances and paths for a report. Angles are left out: TID 1500 has no entry for them.
 io::MeasurementReport report_of(const Marks& marks);
 
 /// The content of the report, a line for each mark, distance and path. `unit`: of the scan.

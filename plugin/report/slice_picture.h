@@ -42,7 +42,7 @@ std::string orientation_letters(const glm::dvec3& direction);
 Canvas draw_slice(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
                   std::span<const ForceArrow> arrows, const std::string& title, int width = 960, int height = 760);
 
-/// The same as a file. Throws std::runtime_error naming it.
+/// Writes the same picture to a file. Throws std::runtime_error naming it.
 void write_slice_png(const io::FieldSource& source, const SliceView& view, std::span<const Track> tracks,
                      std::span<const ForceArrow> arrows, const std::string& title, const std::filesystem::path& file,
                      int width = 960, int height = 760);

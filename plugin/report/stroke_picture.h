@@ -1,6 +1,6 @@
 #pragma once
 
-/// A stroke for people: charts, a table, and one point in words.
+/// A stroke in readable form: charts, a table, and one point in words.
 
 #include <cstddef>
 #include <filesystem>

@@ -24,8 +24,8 @@ struct StructureCrossing {
   std::optional<io::ScanEdge> own_edge;  ///< the scan's edge along the stroke; none if there is none
 };
 
-/// In the order of the stroke, which is straight. Two crossings less than 0.1 mm apart may be missed. At the end of the
-/// scan no edge of the scan is found.
+/// In the order of the stroke, which is straight. Two crossings less than 0.1 mm apart may be missed. Near the border
+/// of the scan no edge of the scan is found.
 std::vector<StructureCrossing> crossings_along(const glm::dvec3& from_mm, const glm::dvec3& to_mm,
                                                const PreparedScene& felt);
 

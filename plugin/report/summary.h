@@ -32,8 +32,8 @@ struct HeldStretch {
 /// The nearest approach of the proxy to a structure, or its greatest depth in it.
 struct Approach {
   std::size_t structure = 0;  ///< index into the scene's structures
-  double distance_mm = 0;     ///< the largest of the session: positive inside
-  double time_s = 0;          ///< time of that
+  double distance_mm = 0;     ///< the largest of the session; positive inside the structure
+  double time_s = 0;          ///< the time of this distance
 };
 
 struct Percentiles {

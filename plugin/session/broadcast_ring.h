@@ -1,7 +1,7 @@
 #pragma once
 
-/// A ring buffer with one writer and any number of readers, each at its own pace. Nobody waits for anybody. A reader
-/// that was overtaken gets an error, and never a torn item.
+/// A ring buffer with one writer and any number of readers, each at its own pace. No thread waits for another. A reader
+/// that was overtaken gets an error, and never a half-written item.
 
 #include <array>
 #include <atomic>
@@ -40,9 +40,9 @@ class BroadcastRing {
   }
 
   std::size_t capacity() const noexcept { return capacity_; }
-  /// How many items were ever written, which is also the number of the next one.
+  /// The number of items written so far, which is also the number of the next one.
   std::uint64_t written() const noexcept { return written_.load(std::memory_order_acquire); }
-  /// The oldest item that may still be there.
+  /// The number of the oldest item that may still be in the ring.
   std::uint64_t oldest() const noexcept {
     const std::uint64_t n = written();
     return n > capacity_ ? n - capacity_ : 0;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A stylus that is open. What it can do is known once it is open (device::Specification), so a scene is planned for it
-/// after that and before its session begins.
+/// A stylus that is open. What it can do is known once it is open (device::Specification), so a scene is planned after
+/// the stylus is opened and before its session begins.
 
 #include <memory>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A script for the simulated hand, made from the scan: come from outside, press on the first boundary, slide along it,
-/// push through to the next ones, and lift off.
+/// Makes a script for the simulated hand from the scan: it comes from outside, presses on the first boundary, slides
+/// along it, pushes through to the next ones, and lifts off.
 
 #include <filesystem>
 #include <glm/vec3.hpp>

@@ -23,8 +23,8 @@ std::vector<std::uint64_t> hashes_of_slices(const io::Volume& volume);
 /// directions of vectors, and `slices` as from hashes_of_slices(). Reads no voxels of the volume.
 std::string hash_of(const io::Volume& without_voxels, std::span<const std::uint64_t> slices);
 std::string hash_of(const io::Volume& volume);
-/// 16 hexadecimal digits that tell one series, with all of its frames, from another. They depend on its UID, which
-/// cannot be recovered from them, and on its place. Reads no voxels.
+/// 16 hexadecimal digits that tell one series, with all of its frames, from another. They depend on its place, and on
+/// its UID, which cannot be recovered from them. Reads no voxels.
 std::string hash_of_series(const std::string& uid, const io::Volume& volume);
 
 }  // namespace palpate::plugin

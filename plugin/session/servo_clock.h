@@ -24,14 +24,14 @@ class ServoClock {
   virtual Deadline wait(std::uint64_t heartbeats) noexcept = 0;
 };
 
-/// The computer's clock, with deadlines at an even rate. A deadline does not wait for a late tick.
+/// The computer's clock, with deadlines at an even rate. A late tick does not delay the deadlines after it.
 class RealClock : public ServoClock {
  public:
   /// Throws std::invalid_argument for a period (s) outside the servo's range.
   explicit RealClock(double period_s) : period_s_(period_s), metronome_(period_s) {}
 
   Deadline wait(std::uint64_t) noexcept override {
-    if (!std::exchange(runs_, true)) metronome_ = device::Metronome(period_s_);  // not before the servo's thread does
+    if (!std::exchange(runs_, true)) metronome_ = device::Metronome(period_s_);  // starts in the servo's thread
     const std::uint64_t missed = metronome_.missed();
     const double late_s = metronome_.wait();
     return {.late_s = late_s, .skipped = metronome_.missed() - missed};

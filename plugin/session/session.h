@@ -5,7 +5,7 @@
 ///
 /// Two threads meet here. The servo calls tick() and shares(). All other functions are called from one controlling
 /// thread at a time (the panel's or the command line's). Scenes, scans, frames and styluses are replaced whole, between
-/// two ticks; the force is ramped across the change. Where one thread does both, a call takes effect in the next tick.
+/// two ticks; the force is ramped across the change. If one thread does both, a call takes effect in the next tick.
 
 #include <array>
 #include <atomic>
@@ -60,7 +60,7 @@ class Session {
   Session(const Snapshot& first, OpenStylus stylus, TickRing* ring);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
-  /// Sends zero force and closes the stylus. No thread may be ticking any more.
+  /// Sends zero force and closes the stylus. No thread may still call tick().
   ~Session();
 
   // --- The servo. Does not allocate, free, lock, log, throw or call the system.
@@ -72,7 +72,7 @@ class Session {
   device::Fault fault() const noexcept { return safety_.fault; }
 
   // --- The controlling thread.
-  /// Changes to another scene, scan, frame or workspace. Changes run one at a time: the next begins when the current
+  /// Changes to another scene, scan, frame or workspace. One change runs at a time: the next begins when the current
   /// one has ended. If several wait, only the last is made. Returns the TickRecord::scene_epoch of its ticks.
   std::uint32_t publish(const Snapshot& next);
   /// Changes to another stylus. It is opened here. The servo takes it when the force has fallen to zero, and ramps the
@@ -134,7 +134,7 @@ class Session {
   int faults_ = 0;
   // The servo's.
   Setting* setting_ = nullptr;
-  Setting* leaving_ = nullptr;  ///< the setting that it replaces; null: settled
+  Setting* leaving_ = nullptr;  ///< the setting that it replaces; null: the change is complete
   double change_began_s_ = 0;
   double part_ = 1;
   Held* held_ = nullptr;

@@ -13,9 +13,9 @@ namespace palpate::plugin {
 /// that way itself, as on the far side of a plate.
 double strength_against_n(const modes::ActiveMode& mode, const io::Sample& sample, const glm::dvec3& inward);
 
-/// N: the most that the mode, a surface, takes on the next 3 mm from a place (patient space, mm) along `inward` (unit).
-/// Not counted is what lies behind a break-through: places that a probe, pushed slowly, comes to only by a jump of the
-/// proxy that takes half of the force. 31 samples: not for the tick.
+/// N: the largest force that the mode, a surface, resists on the next 3 mm from a place (patient space, mm) along
+/// `inward` (unit). Places behind a break-through are not counted: those that a slowly pushed probe reaches only when
+/// the proxy jumps and half of the force is lost. 31 samples: not for the tick.
 double strength_ahead_n(const modes::ActiveMode& mode, const modes::Plan& plan, const io::FieldSource& source,
                         const glm::dvec3& place_mm, const glm::dvec3& inward);
 

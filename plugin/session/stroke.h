@@ -43,10 +43,10 @@ std::vector<StrokePoint> run_stroke(const modes::Plan& plan, const io::FieldSour
 struct Contact {
   std::size_t boundary = 0;  ///< index into the scene's modes
   std::size_t first = 0;     ///< point at which the proxy was first held
-  std::size_t last = 0;      ///< last point before it yielded or let go
+  std::size_t last = 0;      ///< last point before it yielded or the proxy left it
   double peak_n = 0;
-  double strength_n = 0;       ///< the most that the boundary takes along this stretch of the scan and on from it
-  double full_strength_n = 0;  ///< the most that its transfer function gives anywhere
+  double strength_n = 0;       ///< the largest force that it resists along this stretch and beyond its end
+  double full_strength_n = 0;  ///< the largest force of its transfer function
 };
 
 /// N: a boundary that pushes less is not reported.
@@ -54,11 +54,11 @@ constexpr double met_n = 0.05;
 
 /// The surfaces met along a stroke, in order: each stretch on which a surface mode pushes with more than threshold_n.
 std::vector<Contact> contacts_of(std::span<const StrokePoint> stroke, const modes::Plan& plan, double threshold_n);
-/// Fills strength_n and full_strength_n from what the boundary's mode reads at the proxy, and on from where it was last
-/// held (strength_ahead_n()).
+/// Fills strength_n and full_strength_n from what the boundary's mode reads at the proxy, and beyond the place where it
+/// was last held (strength_ahead_n()).
 void add_strengths(std::span<Contact> contacts, std::span<const StrokePoint> stroke, const modes::Plan& plan,
                    const io::FieldSource& source);
-/// "; 0.31 of its 2.5 N: thin or faint there" if a boundary takes less than three quarters of its full strength.
+/// "; 0.31 of its 2.5 N: thin or faint there" if a boundary resists less than three quarters of its full strength.
 std::string strength_to_text(const Contact& contact);
 std::string strength_to_text(double strength_n, double full_strength_n);
 

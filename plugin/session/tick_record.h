@@ -35,7 +35,7 @@ constexpr std::uint32_t arm = 1, disarm = 2, clear_fault = 4, change_stylus = 8;
 /// Device frame: m, N, s.
 struct TickRecord {
   std::uint64_t index = 0;
-  double time_s = 0;  ///< since the session began, counted in deadlines: not the clock's
+  double time_s = 0;  ///< since the session began, counted in deadlines and not by the clock
   double dt_s = 0;
   double pose_time_s = 0;  ///< of the pose, on the device's own clock
   double heartbeat_s = 0;  ///< time_s at which the controlling thread was last seen alive
@@ -46,9 +46,9 @@ struct TickRecord {
   double value = 0;          ///< of the scan at the proxy; NaN outside
   double residual_n = 0;     ///< |equation (7)| with each primitive's share, which is defined on a constraint too
   double error_bound_m = 0;  ///< |proxy - exact proxy| is at most this
-  double change_part = 1;    ///< how far the change to this scene has come; 1: it is complete
-  /// Of the proxy, from each structure that the scene reads (SceneRecord::structures), positive inside; NaN after the
-  /// last of them.
+  double change_part = 1;    ///< the completed part of the change to this scene; 1: it is complete
+  /// Of the proxy, from each structure that the scene reads (SceneRecord::structures), positive inside; NaN after
+  /// the last of these structures.
   double distance_mm[distance_count] = {};
   std::uint32_t scene_epoch = 0;
   std::uint32_t sub_steps = 0;
@@ -65,7 +65,7 @@ struct TickRecord {
   std::uint32_t commands = 0;      ///< bits of namespace command that took effect in this tick
   // The rest depends on the clock or on other threads. No force depends on it.
   std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed at the sample
-  std::uint32_t missed = 0;      ///< deadlines that went by without a tick since the tick before
+  std::uint32_t missed = 0;      ///< deadlines that passed without a tick since the previous tick
   std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
   std::uint32_t stage_ns[stage_count] = {};
 };

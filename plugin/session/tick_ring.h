@@ -14,7 +14,7 @@ namespace palpate::plugin {
 
 class TickRing {
  public:
-  /// 65 s of ticks at 1 kHz, with four primitives in each: 30 MB. The recorder's backlog.
+  /// 65 s of ticks at 1 kHz, with four primitives in each: 30 MB. The recorder may be this far behind.
   static constexpr std::size_t default_ticks = 1U << 16U;
 
   explicit TickRing(std::size_t ticks = default_ticks) : ticks_(ticks), shares_(4 * ticks) {}
@@ -23,7 +23,7 @@ class TickRing {
   void push(const TickRecord& tick, std::span<const PrimitiveRecord> shares) noexcept;
 
   std::size_t capacity() const noexcept { return ticks_.capacity(); }
-  /// Ticks ever written: the next one's number. (A session's ticks are numbered in step.)
+  /// The number of ticks written so far, which is the next tick's number. (A session counts its ticks in the same way.)
   std::uint64_t written() const noexcept { return ticks_.written(); }
   std::uint64_t oldest() const noexcept { return ticks_.oldest(); }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The structures of a scene on a scan. They are read when the scene's plan needs them, and kept as long as it does.
+/// The structures of a scene on a scan. They are read when the scene's plan needs them, and kept while it needs them.
 
 #include <memory>
 #include <optional>
@@ -32,10 +32,10 @@ struct LoadedStructure {
 
 /// The structures that the plan reads, in its order. Reuses unchanged ones in `before`, and the fields of edits that
 /// both begin with. Throws std::invalid_argument naming the structure if its file or segment does not exist, if it is
-/// empty or another patient's, if an edit of it is impossible, or if it has another frame of reference than the scan
-/// and no registration beside it joins the two. Structures in `recorded` are placed as they were then, without
-/// searching for registrations. Fields of edits are shared (shared_edits.h), but those that read the scan only if the
-/// scan has an owner.
+/// empty or belongs to another patient, if an edit of it is impossible, or if it has another frame of reference than
+/// the scan and no registration beside it joins the two. Structures in `recorded` are placed as they were when
+/// recorded, without searching for registrations. Fields of edits are shared (shared_edits.h), but those that read the
+/// scan only if the scan has an owner.
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});

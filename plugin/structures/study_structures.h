@@ -53,7 +53,7 @@ void add_gate_of(modes::Scene& scene, std::size_t mode, const io::Structure& str
 struct OutlineEdges {
   double per_mm = 0;  ///< slope; 0: unknown, and that of a CT is assumed
   double rise = 0;    ///< of the value on the way in, negative if it falls; 0: unknown
-  double middle = 0;  ///< the value half-way up the edge
+  double middle = 0;  ///< the value in the middle of the edge's rise
   bool operator==(const OutlineEdges&) const = default;
 };
 /// A plane in the patient: that of a slice.

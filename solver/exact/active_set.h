@@ -16,7 +16,7 @@ struct ActiveSet {
   int rank = 0;   ///< directions that they fix: 3 for a point, 2 for a line, 1 for a plane
   std::uint32_t locked[3];
   FineVec3 normal[3];  ///< of length one, each orthogonal to the normals of the planes (and line) before it
-  /// of each normal's plane: the component of its direction along the normal, the sine of an angle
+  /// for each normal: the component along it of its primitive's direction, which is the sine of an angle
   double size[3];
   FineVec3 along;  ///< the free direction, of length one, if rank is 2
 
@@ -29,7 +29,7 @@ struct ActiveSet {
 /// locked with them.
 bool lock(ActiveSet& active, std::span<const Placed> primitives, std::uint32_t i);
 
-/// Everything locked but the j-th.
+/// The same set without the j-th locked primitive.
 ActiveSet without(const ActiveSet& active, std::span<const Placed> primitives, int j);
 
 /// Moves z onto the flat.
@@ -41,7 +41,7 @@ double doubt_of(const ActiveSet& active, std::span<const Placed> primitives, con
 /// The part of v within the flat.
 FineVec3 within(const ActiveSet& active, const FineVec3& v);
 
-/// Forces of the locked primitives (of any size) that add up to the part of `needed` across the flat.
+/// Forces of the locked primitives, of any size, whose sum is the part of `needed` normal to the flat.
 void share(const ActiveSet& active, std::span<const Placed> primitives, const Vec3& needed, Vec3 (&forces)[3]);
 
 }  // namespace palpate::solver::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-/// From an answer relative to the probe to a Solution.
+/// Makes a Solution from an answer relative to the probe.
 
 #include "solver/exact/settle.h"
 #include "solver/solution.h"

@@ -16,11 +16,11 @@ struct Contribution {
   double force_error;     ///< N: rounding of the force
   double slack;           ///< J
   double backward_slack;  ///< J: the slack that remains if the primitive may move by the rounding of its data
-  bool held;              ///< whether the force is one that only a point on the primitive exerts
+  bool held;              ///< whether the primitive exerts this force only on a point that lies on it
 };
 
-/// The cheaper of the full force at z (no slack) and the admissible force nearest to `force` (with its slack). doubt:
-/// how far z may be from the exact point, m.
+/// The full force at z (no slack) or the admissible force nearest to `force` (with its slack), whichever gives the
+/// smaller bound. doubt: how far z may be from the exact point, m.
 Contribution share_of(const Placed& primitive, const FineVec3& z, const Vec3& force, double stiffness, double doubt = 0,
                       bool leniently = false);
 

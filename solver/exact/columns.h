@@ -1,7 +1,7 @@
 #pragma once
 
-/// Many primitives in columns, so that the compiler can process several at once: the effects of primitives far enough
-/// from z to need no double-double.
+/// Many primitives in columns, so that the compiler can process several at once. Used for the effects of primitives so
+/// far from z that no double-double is needed.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Unevaluated sums of two doubles (T. J. Dekker 1971; D. E. Knuth, TAOCP 2, 4.2.2): about 31 significant digits, from
-/// error-free transformations. For a distance to a primitive that is the small result of a cancellation.
+/// error-free transformations. Used for a distance to a primitive that is small because large terms cancel.
 
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -10,7 +10,7 @@ namespace palpate::solver::internal {
 
 using Vec3 = glm::dvec3;
 
-/// The most by which a double's rounding changes it, relative to its size.
+/// The largest relative change of a number by its rounding to a double.
 inline constexpr double unit_roundoff = 0x1p-53;
 
 struct DoubleDouble {

@@ -45,7 +45,7 @@ struct Local {
 Local evaluate(const Walk& walk, const FineVec3& z, const ActiveSet& active);
 
 /// dE/dt at the point evaluated last, along a direction that the locked primitives allow. A primitive that z lies on
-/// counts as it will after the step. N m, of a direction in m.
+/// counts with its force after the step. N m, of a direction in m.
 double slope(const Walk& walk, const Local& local, const ActiveSet& active, const FineVec3& way);
 
 /// How fast a plane's depth grows along a direction.

@@ -15,7 +15,7 @@ struct Settled {
   Bound bound;
 };
 
-/// On the flat of the locked primitives.
+/// Settles z onto the flat of the locked primitives.
 Settled settle_on(const ActiveSet& active, std::span<const Placed> placed, double stiffness, const FineVec3& z,
                   std::span<const Vec3> forces);
 

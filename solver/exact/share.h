@@ -1,6 +1,6 @@
 #pragma once
 
-/// The forces of primitives that meet at one point: a point of the sum of their force bodies.
+/// The forces of primitives that meet at one point. Their sum is a point of the sum of their force bodies.
 
 #include <cstdint>
 #include <span>

@@ -28,8 +28,8 @@ inline std::size_t utf8_character(std::string_view text) {
   return length;
 }
 
-/// `escape` precedes the two hexadecimal digits of a byte that is not UTF-8 or of a control character: of ASCII (except
-/// the end of a line), DEL, and C1 (U+0080 to U+009F) as UTF-8 writes them.
+/// `escape` precedes the two hexadecimal digits of a byte that is not UTF-8 or of a control character. Those are
+/// ASCII's (except the end of a line), DEL, and C1 (U+0080 to U+009F) in UTF-8.
 inline std::string without_control(std::string_view text, std::string_view escape, bool ascii) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string shown;

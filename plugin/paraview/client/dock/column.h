@@ -47,7 +47,7 @@ class Column : public QWidget {
     MarksModel& marks;
     SharingModel& sharing;
   };
-  /// `eye`: gives the volume view's viewpoint.
+  /// `eye`: returns the volume view's viewpoint.
   Column(const Follows& models, const std::function<Eye()>& eye);
   ~Column() override;
 

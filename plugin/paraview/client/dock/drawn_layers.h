@@ -27,7 +27,7 @@ class DrawnLayers {
   void draw_boundaries(Pace pace = Pace::stepped);
   /// Releases everything that belongs to the scan.
   void forget_scan();
-  /// Draws the stylus at its latest position; repeats itself while a picture is drawn in several turns.
+  /// Draws the stylus at its latest position; is called again while a picture is drawn in several turns.
   void draw_stylus();
   /// True: draws nothing. While a server is being left, drawing could send requests to a lost server, and ParaView
   /// would then end the program.

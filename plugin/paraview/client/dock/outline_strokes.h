@@ -31,7 +31,7 @@ class OutlineStrokes {
   void show_brush(const std::optional<glm::dvec3>& at);
   /// A view shows another slice: if the hand is held in that view's slice, it is moved to the new one.
   void follow_slice(const SliceView& shown);
-  /// The slice of the active view, or else the axial one.
+  /// The slice of the active view; if that is no slice view, the axial one.
   std::optional<HeldPlane> marked_slice() const;
 
  private:

@@ -25,7 +25,7 @@ class EmptyCenter : public QObject {
 
   QPointer<QWidget> views_;
   QPointer<QWidget> page_;
-  QTimer soon_;  // delayed, since a scan that replaces another leaves nothing empty
+  QTimer soon_;  // delayed, so that the page does not appear when one scan replaces another
   bool advanced_ = true;
 };
 

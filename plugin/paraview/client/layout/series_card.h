@@ -23,7 +23,7 @@ class SeriesCard : public QPushButton {
 
   void set_picture(const QImage& picture);
 
-  // As large as its contents: a plain button knows only its text.
+  // As large as its contents: a plain button takes only its text into account.
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
   bool hasHeightForWidth() const override { return true; }

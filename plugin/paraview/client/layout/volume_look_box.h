@@ -20,7 +20,7 @@ class VolumeLookBox : public QComboBox {
 
   /// The choices for another scan. `chosen` none: the volume has a different appearance, set elsewhere.
   void set_looks(const std::vector<VolumeLook>& looks, std::optional<std::size_t> chosen);
-  /// Whether the volume shows the scene's boundaries, whatever they become.
+  /// Whether the volume shows the scene's boundaries, and follows their changes.
   bool is_felt() const;
   /// Selects the felt boundaries for a restored state; emits nothing.
   void choose_felt() { setCurrentIndex(static_cast<int>(looks_.size())); }

@@ -30,7 +30,7 @@ class DoubtfulList {
   /// The most doubtful first; none during the search.
   const std::optional<io::DoubtfulPlaces>& places() const { return places_; }
   Fate fate(std::size_t place) const;
-  /// The user accepts the outline at this place.
+  /// Records that the user accepts the outline at this place.
   void leave(std::size_t place) { left_.insert(place); }
   /// The place visited last.
   std::optional<std::size_t> at() const { return at_; }

@@ -27,7 +27,7 @@ class MarkButton {
     letting_go_ = false;
     drop();
   }
-  /// Hand and patient are separated: the same, and the button may stay pressed.
+  /// Hand and patient are separated by the clutch: cancels a press, but the button may stay pressed.
   void drop() {
     presses_.drop();
     is_cut_off_ = true;
@@ -38,7 +38,7 @@ class MarkButton {
   std::optional<MarkMade> follow(const TickRecord& tick, std::span<const PrimitiveRecord> shares,
                                  const modes::Scene& scene, const ProxyMm& proxy_mm) {
     const bool is_pressed = (tick.buttons & mark_button) != 0;
-    is_cut_off_ = is_cut_off_ && is_pressed;  // ticks from before the cut may still come
+    is_cut_off_ = is_cut_off_ && is_pressed;  // ticks from before the separation may still come
     if (is_cut_off_ || (!is_pressed && !presses_.is_down())) return std::nullopt;
     if (is_pressed && std::exchange(letting_go_, false)) live_.press(0);
     return presses_.take(

@@ -18,7 +18,7 @@ class MouseHand {
   void hold(std::shared_ptr<device::SimulatedStylus> stylus);
   bool holds() const { return stylus_ != nullptr; }
   void move(const glm::dvec3& patient_mm, const modes::Workspace& workspace);
-  /// Its last position; none while it relaxes, or after a change of the workspace.
+  /// The hand's last position; none while it relaxes, or after a change of the workspace.
   const std::optional<glm::dvec3>& place_mm() const { return place_mm_; }
   void forget_place() { place_mm_.reset(); }
   /// Lets the hand relax until no force acts on it.

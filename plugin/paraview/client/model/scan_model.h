@@ -46,7 +46,7 @@ class ScanModel : public QObject {
   std::string path() const;
   /// The series in the views, whether it can be felt or not; null: none.
   const SeriesRef* seen() const;
-  /// Why the views show something different from what the stylus would feel, and what to do; empty if they agree.
+  /// Why the views differ from what the stylus would feel, and what to do; empty if they agree.
   QString why_not_felt() const;
 
   /// Finds the series of a folder or file, as the active server names it. Shows it if exactly one of them is a volume.

@@ -48,7 +48,7 @@ class ScanWorld {
   virtual bool is_remote() const = 0;
   virtual void find(const std::string& path, Progress progress, Found found) = 0;
   virtual void load(const io::Series& series, int frame, Progress progress, Loaded loaded) = 0;
-  /// Cancels find() and load().
+  /// Cancels running calls of find() and load().
   virtual void stop() = 0;
   /// Loads another frame of the series that is shown, through a filter.
   virtual void load_frame(const io::Series& series, int frame, const io::Filter& filter, Loaded loaded) = 0;

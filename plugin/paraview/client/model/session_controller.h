@@ -89,7 +89,7 @@ class SessionController : public QObject {
   /// The most recent status.
   const SessionStatus& last() const { return status_; }
 
-  /// As LiveSession::set_clock(). Virtual so that the tests' plug-in reaches it, which is not linked with this one.
+  /// As LiveSession::set_clock(). Virtual, so that the tests' plug-in, which is not linked with this one, can call it.
   virtual void set_clock(LiveSession::MakeClock make) { live_.set_clock(std::move(make)); }
   /// `start` returns where a simulated stylus begins. It is called when the scene is planned.
   void set_start(std::function<glm::dvec3(const device::Specification&)> start) { start_ = std::move(start); }
@@ -121,7 +121,7 @@ class SessionController : public QObject {
   void clutch();
   void unclutch(const glm::dmat3& rotation);
   bool is_clutched() const { return parted_.has_value(); }
-  /// Whether the mapping may change: not while a force is felt, because the hand would be thrown.
+  /// Whether the mapping may change: not while a force is felt, because the force would jump and throw the hand.
   bool may_remap() const;
 
   /// Gives the status while no stylus is connected.

@@ -34,7 +34,7 @@ class SharingModel : public QObject {
   std::size_t clients() const { return clients_; }
 
  signals:
-  /// It was turned on or off, or the number of clients has changed.
+  /// Sharing was turned on or off, or the number of clients has changed.
   void changed();
   /// A client asks for the scan in a folder.
   void folder_wanted(const QString& folder);

@@ -16,7 +16,7 @@
 namespace palpate::plugin {
 
 struct Unsaved {
-  bool scene = false;  ///< the felt scene was edited. Reach, limits and stiffness do not count: they are the hand's
+  bool scene = false;  ///< the felt scene was edited. Reach, limits and stiffness do not count: they concern the hand
   std::vector<std::string> outlines;  ///< corrected outlines, by their names in the scene
   std::size_t marks = 0;              ///< including paths, distances and angles
 

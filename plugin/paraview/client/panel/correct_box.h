@@ -29,7 +29,7 @@ class CorrectBox : public QWidget {
   void set_change(const QString& words);
   /// The progress of the search for doubtful places, 0 to 1; below 0: no search.
   void set_looking(double done);
-  /// Whether every stroke is already felt: only then can the outline be saved or sent.
+  /// Whether the felt outline has every stroke: only then can the outline be saved or sent.
   void set_whole(bool whole);
   /// Its progress bar is outside this box, which is hidden while no structure is corrected.
   OutlineOut& out() { return *out_; }

@@ -36,7 +36,7 @@ class CurveProfile : public QWidget {
   void touch_at(const glm::dvec3& place, const glm::dvec3& inward);
   /// Another scan: forgets the previous one's places.
   void forget();
-  /// The curve has come to rest: the next drag is compared with the present curve.
+  /// A drag of the curve has ended: the next drag is compared with the present curve.
   void rest();
 
  protected:

@@ -30,7 +30,7 @@ class StrokeRunner {
 
  private:
   const SessionController& session_;
-  Prepared prepared_;  // with its own fields, so that the servo's bricks stay around the stylus
+  Prepared prepared_;  // with fields of its own, so that the servo's cache stays near the stylus
 };
 
 }  // namespace palpate::plugin

@@ -32,7 +32,7 @@ class ScanPipeline : public ScanWorld {
   void follow(ScanModel& model);
 
   ClinicalViews& views() { return views_; }
-  /// Null: there is none.
+  /// Null if there is none.
   pqPipelineSource* source() const { return source_; }
   /// Takes over a reader of the pipeline with its views as they are, which a state file or Undo has created. After a
   /// state file the previous scan is removed.

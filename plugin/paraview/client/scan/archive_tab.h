@@ -93,7 +93,7 @@ class ArchiveTab : public QWidget {
   Job finding_;
   Job listing_;
   Job counting_;
-  Job fetching_;  // last: its files are in run_
+  Job fetching_;  // last: it must end before run_, which holds its files
 };
 
 }  // namespace palpate::plugin

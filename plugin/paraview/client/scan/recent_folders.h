@@ -10,7 +10,7 @@ namespace palpate::plugin {
 /// Those that still exist.
 QStringList recent_folders();
 void remember_folder(const QString& folder);
-/// The initial place of a dialog for a folder: beside the latest one; empty if there is none.
+/// The initial place of a dialog for a folder: beside the latest folder; empty if there is none.
 QString last_place();
 
 }  // namespace palpate::plugin

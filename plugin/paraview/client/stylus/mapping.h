@@ -26,7 +26,7 @@ modes::WorkspaceSettings fit_scan(const modes::WorkspaceSettings& now);
 /// Brings the visible part of the patient into the device's reach, rotated as in the view: the view's height becomes
 /// the device's.
 modes::WorkspaceSettings fit_view(const Eye& eye, const glm::dvec3& half_extent_m);
-/// 1 mm of the hand is 1 mm in the patient, about the present center.
+/// 1 mm of the hand is 1 mm in the patient, with the present center.
 modes::WorkspaceSettings one_to_one(const modes::Workspace& now);
 
 }  // namespace palpate::plugin

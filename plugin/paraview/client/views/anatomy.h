@@ -9,7 +9,7 @@
 namespace palpate::plugin {
 
 /// "L", "R", "A", "P", "H" or "F" (head, feet) for the direction of a vector; two letters, the nearer one first, if it
-/// is more than 10 degrees off.
+/// is more than 10 degrees from an axis.
 std::string letters_of(const glm::dvec3& direction);
 
 /// The notation of positions. Radiology's (DICOM's): "L 12.3 P 4.0 H 88.1 mm", the distances to the left (or right, R),

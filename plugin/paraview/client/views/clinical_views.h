@@ -88,7 +88,7 @@ class ClinicalViews {
   /// The open views, the slices first.
   std::vector<ClinicalView> views() const;
   /// Moves every slice view to the slice nearest to a place in the patient, mm. Cheap if no slice changes. The view
-  /// with the normal `but` stays.
+  /// with the normal `but` is not moved.
   void show_point(const glm::dvec3& place, const std::optional<glm::dvec3>& but = {});
   /// Called when the user browses slices.
   void set_leafed(std::function<void()> leafed) { window_->leafed = std::move(leafed); }

@@ -61,8 +61,8 @@ class PatientVolume {
   std::function<void()> changed_;
   vtkSmartPointer<vtkImageData> whole_image_, cut_image_;
   vtkSmartPointer<vtkVolume> own_;
-  std::unique_ptr<EventWatch> look_watch_;  // of the properties of ParaView's representation
-  std::unique_ptr<EventWatch> type_watch_;  // of whether that is a volume
+  std::unique_ptr<EventWatch> look_watch_;  // watches the properties of ParaView's representation
+  std::unique_ptr<EventWatch> type_watch_;  // watches whether that is a volume
   vtkSmartPointer<vtkVolume> taken_out_;    // ParaView's volume, while it is not drawn
   std::unique_ptr<CropBox> box_;
   bool cut_ = true, cropped_ = false, hidden_ = false, waits_ = true;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// ParaView 5.11's representation proxy does this itself, 5.13 has a helper class for it.
+/// Coloring by an array: ParaView 5.11's representation proxy does this itself, 5.13 has a helper class for it.
 
 #include <vtkPVVersion.h>
 #include <vtkSMPVRepresentationProxy.h>

@@ -17,7 +17,7 @@ struct OpacityNode {
 };
 
 /// The fraction of light from a place that does not reach the eye, 0 to 1: patient space, mm. The last millimeters
-/// before the place do not count, because it is on the surface that it feels.
+/// before the place do not count, because the place is on the felt surface.
 double hidden_part(const io::FieldSource& source, std::span<const OpacityNode> opacity, const glm::dvec3& eye,
                    const glm::dvec3& place);
 

@@ -5,7 +5,7 @@
 namespace palpate::plugin {
 
 /// The direction in which slices are counted. The scanner's own slices count like its images (Instance Number); slices
-/// across them count in the direction of the wheel.
+/// perpendicular to them count in the direction of the wheel.
 struct SliceNumbers {
   bool from_last = false;  ///< the last slice of the lattice is number 1
 };

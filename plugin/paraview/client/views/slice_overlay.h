@@ -35,9 +35,9 @@ class SliceOverlay {
   void set_identity(const QString& text);
   /// A line that is wider than the view is shortened in its middle.
   void set_place(const QString& text);
-  /// All but the letters, which tell left from right.
+  /// Shows or hides all texts except the letters, which tell left from right.
   void set_texts_visible(bool visible);
-  /// The patient's identity: not in saved pictures.
+  /// Shows or hides the patient's identity, which is not in saved pictures.
   void set_identity_visible(bool visible);
   /// Returns whether the text has changed.
   bool set_pointer(const QString& text);

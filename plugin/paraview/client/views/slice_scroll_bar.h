@@ -22,7 +22,7 @@ class SliceScrollBar {
   SliceScrollBar& operator=(const SliceScrollBar&) = delete;
   ~SliceScrollBar();
 
-  /// Sets the slice that is shown, `n` from 0, and the number of slices. Counted from below.
+  /// Sets the slice that is shown, `n` from 0, and the number of slices. Slices count from the bottom.
   void set(int n, int of);
   void set_visible(bool visible);
   /// Whether a position in the view, in pixels from the left, is on it.

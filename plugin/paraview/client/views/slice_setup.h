@@ -7,7 +7,7 @@
 
 namespace palpate::plugin {
 
-/// ParaView's slice mode for slices across the sight's axis.
+/// ParaView's slice mode for slices perpendicular to the axis of the sight.
 int slice_mode(const Sight& sight);
 /// The caller sets the slice and the camera.
 SliceSetup setup_of(const ImageLattice& lattice, Plane plane);

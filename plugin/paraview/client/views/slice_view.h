@@ -76,7 +76,7 @@ struct SliceSetup {
   int slices = 1;
   int slice = 0;
   SliceNumbers numbers;
-  bool as_scanned = false;  ///< the scanner's own slices, not ones across them
+  bool as_scanned = false;  ///< the scanner's own slices, not slices perpendicular to them
   double pixel_mm = 1;      ///< the smaller side of a voxel in the slice
   double first_mm = 0;      ///< of the first slice along `sight.along`, in patient space
   double pitch_mm = 1;      ///< from slice to slice along `sight.along`; negative if the slices run towards the eye

@@ -18,8 +18,8 @@ namespace palpate::plugin {
 /// Whether this program's pictures are drawn by the processor. Determined once, on the UI thread.
 bool draws_without_card();
 
-/// Made on the UI thread, to be run on another: returns a mapper that is ready for its first picture, or null if
-/// keep_going returns false. It draws every `step`-th voxel along each axis, and ignores the image's origin and
+/// A function made on the UI thread, to be run on another. It returns a mapper that is ready for its first picture, or
+/// null if keep_going returns false. It draws every `step`-th voxel along each axis, and ignores the image's origin and
 /// directions: see place_of().
 using PrepareToCast =
     std::function<vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>(const std::function<bool()>& keep_going)>;

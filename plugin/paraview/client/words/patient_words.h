@@ -8,13 +8,13 @@
 
 namespace palpate::plugin {
 
-/// "Muster, Erika" of "Muster^Erika" (DICOM's value representation PN; the first of its groups).
+/// "Muster, Erika" for "Muster^Erika" (DICOM's value representation PN; the first of its groups).
 QString patient_in_words(const std::string& name);
 
-/// "2026-01-04" of "20260104"; any other text is unchanged.
+/// "2026-01-04" for "20260104"; any other text is unchanged.
 QString date_in_words(const std::string& date);
 
-/// "10:15" of "101500.000"; empty for any other text.
+/// "10:15" for "101500.000"; empty for any other text.
 QString time_in_words(const std::string& time);
 
 }  // namespace palpate::plugin
