@@ -127,7 +127,7 @@ TEST(SeriesDetails, NotesTellWhereWhatIsFeltIsNotWhatIsThought) {
               Contains("lossy compression: fine edges may be artifacts"));
   EXPECT_THAT(series_with({{DCM_LossyImageCompression, "01"}, {DCM_LossyImageCompressionRatio, "4\\2.5"}}).warnings,
               Contains("lossy compression of 10.0 to 1: fine edges may be artifacts"));
-  const char* computed = "its images were computed from others: choose those where fine edges matter";
+  const char* computed = "its images were computed from others: choose the original images where fine edges matter";
   EXPECT_THAT(series_with({{DCM_ImageType, "DERIVED\\SECONDARY\\MPR"}}).warnings, Contains(computed));
   EXPECT_THAT(series.warnings, Not(Contains(computed)));  // the projection is said
 }

@@ -45,7 +45,7 @@ inline constexpr MessageRow scenes[] = {
       {"negative-value", "{} is negative; {}, 0 or more"},
       {"not-finite", "is not finite"}}},
     {"a color is six hexadecimal digits",
-     "as it shows",
+     "write it as the message shows",
      {{"not-a-color-such-as-0072b2", "\"{}\" is not a color such as \"#0072b2\""}}},
     {"the workspace's rotation is not a rotation",
      "leave it out, or let the panel set it",
@@ -66,7 +66,7 @@ inline constexpr MessageRow scenes[] = {
      "",
      {{"not-between-0-and-1000", "{} is not between 0 and 1000"},
       {"not-between-1-and-1000", "{} is not between 1 and 1000"},
-      {"too-many", "{} are too many; there may be {}"}}},
+      {"too-many", "{} are too many; at most {} are allowed"}}},
     {"one slice, or a stylus without reach",
      "give center_mm and scale instead",
      {{"workspace-fit-the-scan-or-the-device", "workspace.fit: the scan or the device has no extent"}}},
@@ -76,7 +76,7 @@ inline constexpr MessageRow scenes[] = {
       {"not-a-usable-number", "{}: is not a usable number (finite, at most 1e30)"},
       {"nodes-do-not-ascend", "{}: has to lie beyond the node before (nodes ascend in their first number)"}}},
     {"a scene of a later version", "take a newer Palpate", {{"not-known", "{} is not known; this program reads {}"}}},
-    {"a bracket or a quote is missing there", "mend that place", {{"not-json", "{}: {}"}}},
+    {"a bracket or a quote is missing there", "correct that place", {{"not-json", "{}: {}"}}},
 };
 
 }  // namespace palpate::modes::messages

@@ -8,7 +8,7 @@ namespace palpate::solver::messages {
 
 inline constexpr MessageRow balances[] = {
     {"a number that no balance can have",
-     "mend that number",
+     "correct that number",
      {{"is-negative", "{} is negative ({})"},
       {"not-positive", "{} is not positive ({})"},
       {"no-length", "{} has no length ({})"},

@@ -197,7 +197,7 @@ TEST_F(GuardianOfProcess, SaysOfAHaplyWhetherTheServiceTookTheForceAway) {
     setenv("PALPATE_HAPLY", ("localhost:" + std::to_string(server.port())).c_str(), 1);
     start("haply", "push");
     ASSERT_TRUE(end_while_it_pushes([&] { return glm::length(server.acting()); }, SIGSTOP)) << said();
-    const std::string told = service_ends_it ? "stands still while it pushes; zero force was sent"
+    const std::string told = service_ends_it ? "hangs while it pushes; zero force was sent"
                                              : "THE STYLUS COULD NOT BE REACHED: switch it off";
     EXPECT_TRUE(comes([&] { return said().find(told) != std::string::npos; })) << said();
     EXPECT_EQ(server.acting() == Vec3(0), service_ends_it);

@@ -175,7 +175,7 @@ TEST(Guardian, SendsZerosWhereASessionStandsStillWhileItPushes) {
   node.wait_until_stopped();
   node.guardian->dismiss();
   EXPECT_NE(::testing::internal::GetCapturedStderr().find(
-                "palpate-guardian: the session stands still while it pushes; zero force was sent"),
+                "palpate-guardian: the session hangs while it pushes; zero force was sent"),
             std::string::npos);
 }
 
@@ -200,7 +200,7 @@ TEST(Guardian, ProvesItselfAndLives) {
   node.guardian->prove();
   EXPECT_EQ(node.guardian->reach(), GuardianReach::once_free);
   EXPECT_EQ(node.guardian->describe(),
-            "its guardian takes the force away within 100 ms after the program ends; a program that only stands still "
+            "its guardian takes the force away within 100 ms after the program ends; a program that only hangs "
             "may keep the device");
   const GuardianBeat& shared = node.guardian->shared();
   for (const std::uint32_t before = shared.lives; shared.lives < before + 5;) {
@@ -219,7 +219,7 @@ TEST(Guardian, SaysWithinWhatTimeTheForceIsGone) {
       return Guardian(0, -1, &beat).describe();
     };
     const std::string ended = " within " + std::to_string(ms) + " ms after the program ends";
-    const std::string stopped = " and " + std::to_string(ms + 200) + " ms after it stands still";
+    const std::string stopped = " and " + std::to_string(ms + 200) + " ms after it hangs";
     EXPECT_THAT(said(GuardianReach::at_any_time), AllOf(HasSubstr(ended), HasSubstr(stopped)));
     EXPECT_THAT(said(GuardianReach::once_free), AllOf(HasSubstr(ended), Not(HasSubstr(stopped))));
     EXPECT_THAT(said(GuardianReach::looks_on), Not(HasSubstr(" ms ")));

@@ -80,7 +80,7 @@ TEST_F(TouchCalibration, ItsEncodersAreResetOnlyWhenTheyMay) {
   hd->styles = 1;
   hd->calibration = 0x5002;
   expect_refusal([] { unthreaded()->open(); },
-                 "3D Systems Touch: this model takes the position in which it is reset for its zero; put its links at "
+                 "3D Systems Touch: this model uses the position in which it is reset as its zero; put its links at "
                  "right angles, then allow it in its settings file: may_reset_encoders, true");
   EXPECT_EQ(hd->updates, 0);
   EXPECT_EQ(hd->disabled, 1);

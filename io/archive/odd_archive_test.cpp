@@ -129,12 +129,12 @@ TEST(OddArchive, ThatAnswersOtherThanAskedIsGivenUp) {
                    "{} does not offer us this service ({}): have it allowed there for {}"));
   EXPECT_TRUE(says(OddArchive("refuses-echo").refused_echo(), "archive {} answered, and refused the echo: {}"));
   EXPECT_TRUE(says(OddArchive("garbage").refused_fetch(), "{} sent an answer that is no DICOM dataset"));
-  EXPECT_TRUE(says(OddArchive("echoes").refused_fetch(), "archive {} answered a question with something else"));
-  EXPECT_TRUE(says(OddArchive("echoes-at-get").refused_fetch(), "it answered with something else"));
+  EXPECT_TRUE(says(OddArchive("echoes").refused_fetch(), "archive {} gave an unexpected answer to a question"));
+  EXPECT_TRUE(says(OddArchive("echoes-at-get").refused_fetch(), "it gave an unexpected answer"));
 }
 
 TEST(OddArchive, ThatHasNothingSaysSo) {
-  EXPECT_TRUE(says(OddArchive("empty").refused_fetch(), "it has no images of it"));
+  EXPECT_TRUE(says(OddArchive("empty").refused_fetch(), "the archive has no images of it"));
   EXPECT_TRUE(says(OddArchive("all-fail").refused_fetch(), "all {} of its images failed"));
 }
 
@@ -173,20 +173,21 @@ TEST(OddArchive, ThatSendsElsewhereIsFoundOut) {
 TEST(OddArchive, ThatSendsUnderAnotherTitleIsTurnedAway) {
   OddArchive odd("stranger");
   odd.archive().uses_get = false;
-  EXPECT_TRUE(says(odd.refused_fetch(),
-                   "STRANGER{} when it sent, and was turned away: --called has to be its AE title and --calling the "
-                   "one it sends to"));
+  EXPECT_TRUE(
+      says(odd.refused_fetch(),
+           "STRANGER{} when it sent, and was refused: --called has to be the archive's AE title, and --calling the "
+           "title that it sends to"));
   EXPECT_EQ(odd.process().read_line(), "stranger 3 for 3")
       << "an A-ASSOCIATE-RJ: the caller is not known (PS3.8 9.3.4)";
   OddArchive misdials("misdials");
   misdials.archive().uses_get = false;
-  EXPECT_TRUE(says(misdials.refused_fetch(), "ODD called us SOMEONE when it sent, and was turned away"));
+  EXPECT_TRUE(says(misdials.refused_fetch(), "ODD called us SOMEONE when it sent, and was refused"));
   EXPECT_EQ(misdials.process().read_line(), "stranger 3 for 7") << "the called one is not known";
 }
 
 TEST(OddArchive, ThatSendsAnotherStudyIsNotBelieved) {
   OddArchive odd("unasked");
-  EXPECT_TRUE(says(odd.refused_fetch(), "it sent something else, which was not kept: tell who runs it"));
+  EXPECT_TRUE(says(odd.refused_fetch(), "it sent something else, which was not kept: tell its administrator"));
   EXPECT_THAT(odd.process().read_line(), HasSubstr("stored C000"));
 }
 
@@ -210,8 +211,9 @@ TEST(OddArchive, ThatFailsInPartIsCounted) {
   ASSERT_EQ(fetched.warnings.size(), 1U);
   EXPECT_THAT(fetched.warnings.front(), HasSubstr("3 of 4 images of study 1.2.3"));
   EXPECT_THAT(fetched.warnings.front(), HasSubstr("(1.2.3.6 1.2.3.7 1.2.3.8)"));
-  EXPECT_TRUE(says(fetched.warnings.front(),
-                   "{} of {} images of {} could not be sent by archive {}{}: fetch it again, or tell who runs it"));
+  EXPECT_TRUE(says(
+      fetched.warnings.front(),
+      "{} of {} images of {} could not be sent by archive {}{}: fetch it again, or tell the archive's administrator"));
 }
 
 TEST(OddArchive, ThatGrowsIsNoticed) {
@@ -341,7 +343,7 @@ TEST(OddArchive, ThatDoesNotTakeAFileIsQuoted) {
     send(odd.archive(), {file});
     ADD_FAILURE() << "not refused";
   } catch (const ArchiveError& error) {
-    EXPECT_TRUE(says(error.what(), "archive {} answered a file with something else"));
+    EXPECT_TRUE(says(error.what(), "archive {} gave an unexpected answer to a file"));
   }
 }
 
@@ -365,7 +367,8 @@ TEST(ArchiveSettings, ThatCannotBeAreRefused) {
   refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.calling = "  "; });
   refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.calling = "A\\B"; });
   refused("the time to wait has to be 1 to 3600 s", [](Archive& a) { a.silence_s = 0; });
-  refused("TLS needs --tls-ca, the certificate of who signed the archive's", [](Archive& a) { a.tls.used = true; });
+  refused("TLS needs --tls-ca, the certificate of the authority that signed the archive's certificate",
+          [](Archive& a) { a.tls.used = true; });
   refused("C-MOVE with TLS needs --tls-certificate and --tls-key, since the archive then connects to us; or set --get",
           [](Archive& a) {
             a.tls = {true, "ca.pem", "", "", ""};

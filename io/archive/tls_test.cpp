@@ -87,9 +87,10 @@ TEST_F(OrthancTest, RefusesACertificateForAnotherMachine) {
     peer.tls.name = name;
     const std::string said = refusal([&] { echo(peer); });
     EXPECT_NE(said, "no refusal");
-    return !!says(said,
-                  "{} showed a certificate that is not for {}: set --host to the name or address that it is for, or, "
-                  "where you know that it is the archive's, --tls-name");
+    return !!says(
+        said,
+        "{} showed a certificate that is not for {}: set --host to the name or address that it is for, or set "
+        "--tls-name if you know that it is the archive's certificate");
   };
   EXPECT_FALSE(refused_by_name("127.0.0.1", ""));
   EXPECT_FALSE(refused_by_name("localhost", "pacs.example"));

@@ -79,8 +79,9 @@ TEST(Htj2k, CopiesOfWhatIsNotDecodedAreNotCompared) {
 TEST(Htj2k, IsRefusedByItsName) {
   for (const char* const uid : {"1.2.840.10008.1.2.4.201", "1.2.840.10008.1.2.4.202", "1.2.840.10008.1.2.4.203"}) {
     EXPECT_FALSE(can_decode(uid));
-    EXPECT_EQ(why_not_decoded(uid),
-              "it is compressed by HTJ2K (High-Throughput JPEG 2000), which is not read here: export it uncompressed");
+    EXPECT_EQ(
+        why_not_decoded(uid),
+        "it is compressed by HTJ2K (High-Throughput JPEG 2000), which Palpate does not read: export it uncompressed");
   }
 }
 

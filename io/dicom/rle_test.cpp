@@ -81,7 +81,7 @@ TEST(RunLengths, ThatDoNotFitAreRefused) {
   EXPECT_EQ(refusal(format_of(4, 8), coded({{254, 9}})), rle + "end early");
   EXPECT_EQ(refusal(format_of(4, 8), coded({{3, 1, 2, 3}})), rle + "do not fit the image");
   EXPECT_EQ(refusal(format_of(4, 8), coded({{253}})), rle + "do not fit the image");
-  EXPECT_EQ(refusal(format_of(4, 16), coded({{253, 9}})), rle + "are not one a byte of a pixel");
+  EXPECT_EQ(refusal(format_of(4, 16), coded({{253, 9}})), rle + "are not one for each byte of a pixel");
   EXPECT_EQ(refusal(format_of(4, 8), std::vector<std::byte>(63)), rle + "are missing");
   for (const int start : {63, 67}) {
     auto bytes = coded({{253, 9}});

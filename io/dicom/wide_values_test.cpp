@@ -122,8 +122,9 @@ TEST(WideValues, IntegersOf32BitsCompressedByMoreThanRunLengthsAreRefused) {
   });
   const Catalogue found = find_in(folder);
   ASSERT_THAT(found.skipped, SizeIs(3));
-  EXPECT_EQ(found.skipped[0].reason,
-            "pixels of 32 bits are read only where they are not compressed, or by RLE or deflation alone");
+  EXPECT_EQ(
+      found.skipped[0].reason,
+      "pixels of 32 bits are read only if they are not compressed, or if they are compressed by RLE or deflation");
 }
 
 template <typename Number>

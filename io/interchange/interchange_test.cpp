@@ -204,7 +204,7 @@ TEST(Interchange, LabelsInAnotherOrderOfAxesAreRefused) {
   const StructureCatalogue found = find_structures(std::array{folder / "a.nii"});
   ASSERT_THAT(found.skipped, SizeIs(1));
   EXPECT_EQ(found.skipped[0].reason,
-            "its labels lie in an order of axes that is read of scans alone: resample it on the scan");
+            "its labels lie in an order of axes that is read only for scans: resample it on the scan");
 }
 
 TEST(Interchange, IsRefusedInWords) {
@@ -215,7 +215,7 @@ TEST(Interchange, IsRefusedInWords) {
             "it is no MetaImage of three or four dimensions in binary: save it as such");
   EXPECT_EQ(
       refusal_of("a.mha", meta_image(meta_place + "ElementNumberOfChannels = 3\nElementDataFile = LOCAL\n") + data),
-      "it holds 3 values a voxel: save one of them in a file of its own");
+      "it holds 3 values for each voxel: save one of them in a file of its own");
   for (const char* const other : {"../a.raw", "/etc/passwd", "LIST", "a%03d.raw", "absent.raw"}) {
     EXPECT_EQ(refusal_of("a.mhd", meta_image(meta_place + "ElementDataFile = " + other + "\n")),
               "its voxels are in several files, or in one that is not beside it: save header and voxels in one file");

@@ -167,12 +167,12 @@ TEST(NewFormats, AxesThatAreNeitherSpaceNorFramesAreRefused) {
     EXPECT_EQ(refusal_of("a.nrrd", nrrd_with("dimension: 4\nsizes: 3 4 3 5\nkinds: " + std::string(kind) +
                                              " domain domain domain\nspace directions: none " + directions + "\n") +
                                        side_by_side()),
-              "it holds 3 values a voxel: save one of them in a file of its own");
+              "it holds 3 values for each voxel: save one of them in a file of its own");
   }
   EXPECT_EQ(refusal_of("a.nrrd", nrrd_with("dimension: 4\nsizes: 4 3 3 5\nkinds: domain list domain domain\nspace "
                                            "directions: (1,0,0) none (0,2,0) (0,0,3)\n") +
                                      side_by_side()),
-            "it holds 3 values a voxel: save one of them in a file of its own");
+            "it holds 3 values for each voxel: save one of them in a file of its own");
 }
 
 // --- Colors ----------------------------------------------------------------------------------------------------------
@@ -319,7 +319,7 @@ TEST(NewFormats, EncodingsThatAreDamagedAreRefusedInWords) {
               ::testing::HasSubstr("ends before its last voxel"));
   EXPECT_THAT(
       refused("ascii", "12 none " + in_words(" ")),
-      ::testing::HasSubstr("its voxels are written in words, and \"none\" is no number of its type: export it again"));
+      ::testing::HasSubstr("its voxels are written as text, and \"none\" is no number of its type: export it again"));
   EXPECT_THAT(refused("ascii", "40000 " + in_words(" ")), ::testing::HasSubstr("\"40000\" is no number of its type"));
   EXPECT_THAT(refused("ascii", std::string(400, '7')), ::testing::HasSubstr("is no number of its type"));
   EXPECT_THAT(refused("hex", in_hex(voxels<std::int16_t>(), "").substr(1)),

@@ -121,7 +121,7 @@ TEST(SilentFormats, AWrongChecksumIsNoticedWhateverFrameIsRead) {
       write_bytes(folder / "bad.nii.gz", bad);
       EXPECT_THAT(why_not_loaded(folder / "bad.nii.gz", frame),
                   ::testing::HasSubstr(
-                      "what it holds was damaged since it was written (its checksum): copy or export it again"));
+                      "its content was damaged after it was written (its checksum is wrong): copy or export it again"));
     }
   }
   for (const char* const name : {"a.nrrd", "a.mha"}) {

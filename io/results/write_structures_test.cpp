@@ -287,12 +287,12 @@ TEST(WriteStructure, RefusesInWordsAndLeavesNothing) {
   EXPECT_TRUE(says(write(none, "a.nii", false), empty));
   for (const char* const name : {"a.nii", "a.nii.gz", "a.nrrd", "a.seg.nrrd", "a.mha"}) {
     EXPECT_TRUE(says(write(ball.distance, name, false),
-                     "{} can hold slices at equal distances alone, and the scan's are not: write .dcm"));
+                     "{} can hold only slices at equal distances, and the scan's slices are uneven: write .dcm"));
   }
+  EXPECT_TRUE(says(write(ball.distance, "a.stl", false), "{} has no known file name extension: use .dcm or one of {}"));
   EXPECT_TRUE(
-      says(write(ball.distance, "a.stl", false), "{} has no ending that is known: name a file .dcm or one of {}"));
-  EXPECT_TRUE(says(write(ball.distance, "a.mha", true),
-                   "contours (RTSTRUCT) are written as DICOM alone, and {} is none: name a file .dcm"));
+      says(write(ball.distance, "a.mha", true),
+           "contours (RTSTRUCT) are written only as DICOM, and {} is not a DICOM name: use the extension .dcm"));
   Series elsewhere = scan;
   elsewhere.source = nullptr;
   EXPECT_TRUE(says(refusal([&] {

@@ -163,7 +163,7 @@ TEST(ContourRegionLaws, AreSaidOfTheStructure) {
   EXPECT_EQ(doubled.warnings[0], "2 of its contours are there twice: each counts once");
   const ContourStack overlapping = stack_of({square(0, 9, 0), square(0, 9, 3), square(5, 12, 3)});
   ASSERT_EQ(overlapping.warnings.size(), 1U);
-  EXPECT_EQ(overlapping.warnings[0], "contours overlap in 1 of its planes: what one of them holds is inside");
+  EXPECT_EQ(overlapping.warnings[0], "contours overlap in 1 of its planes: what lies inside any of them is inside");
 }
 
 std::string refusal_of_random(int contours, int points) {

@@ -156,7 +156,7 @@ TEST(ContourStackLaws, PlanesThatLieUnevenlyAreSaidAndMeasuredAsTheyAreFelt) {
   EXPECT_TRUE(said_of({0, 1.2, 2.5, 3.8, 5}).empty()) << "rounded";
   EXPECT_EQ(said_of({0, 2.5, 5, 7.5, 22.5, 25, 27.5, 47.5, 50, 75}),
             std::vector<std::string>{
-                "its planes lie unevenly: mostly 2.50 mm apart, but 3 times 15.00 mm to 25.00 mm; gaps of more than "
+                "its planes lie unevenly: mostly 2.50 mm apart, but 3 gaps are 15.00 mm to 25.00 mm; gaps of more than "
                 "11.25 mm are empty, and smaller ones are filled"});
   std::mt19937 random(3);
   for (int n = 0; n < 50; ++n) {

@@ -89,7 +89,7 @@ TEST(Contours, AreRefusedInWords) {
   EXPECT_EQ(unfit_of({{"OPEN_PLANAR", square(3, 0)}, {"POINT", "1\\2\\3"}}),
             "it has no closed contour, only 1 OPEN_PLANAR, 1 POINT");
   EXPECT_EQ(unfit_of({{"CLOSED_PLANAR", "0\\0\\0\\1\\0\\0\\0\\1"}}),
-            "a contour of it has 8 numbers, not three a point");
+            "a contour of it has 8 numbers, not three for each point");
   EXPECT_EQ(unfit_of({{"CLOSED_PLANAR", "0\\0\\0\\10\\0\\0\\10\\10\\5\\0\\10\\0"}}),
             "its contours do not lie in parallel planes: export it as SEG");
   EXPECT_EQ(unfit_of({{"CLOSED_PLANAR", "0\\0\\0\\1\\0\\0\\2\\0\\0"}}), "its contours have no area");
@@ -122,7 +122,7 @@ TEST(Contours, ThatAreTooLargeAreRefusedInWords) {
                                HasSubstr("mm: more than can be felt")));
   std::vector<TestContour> many;
   for (int n = 0; n < 4097; ++n) many.push_back({"CLOSED_PLANAR", square(3, 0.1 * n)});
-  EXPECT_EQ(refusal_of_contours(many), "its contours lie in 4097 planes; there may be 4096");
+  EXPECT_EQ(refusal_of_contours(many), "its contours lie in 4097 planes; at most 4096 are allowed");
 }
 
 TEST(Contours, ThatCannotBeFeltSayWhy) {

@@ -40,12 +40,12 @@ TEST(Edits, WhatCannotBeDoneIsRefusedInWords) {
   EXPECT_EQ(refusal(AddEdit{{.path_mm = {Vec3(0)}}}, nullptr),
             "add: there is no structure yet to be changed: the first edit has to be \"contours\"");
   EXPECT_EQ(refusal(ContoursEdit{{{Vec3(0), Vec3(9, 0, 0), Vec3(0, 9, 0)}}}, ball),
-            "contours: contours make a new structure: they have to be the first edit of one without a file");
+            "contours: contours make a new structure: they have to be the first edit of a structure without a file");
   EXPECT_EQ(refusal(ScanEdgeEdit{}, ball), "scan_edge: the scan's own edge is needed and no scan is there");
   EXPECT_EQ(refusal(AddEdit{{.path_mm = std::vector<Vec3>(100'001)}}, ball),
-            "add: it has 100001 points; there may be 100000");
+            "add: it has 100001 points; at most 100000 are allowed");
   EXPECT_EQ(refusal(AddEdit{{.path_mm = {Vec3(std::numeric_limits<double>::quiet_NaN())}}}, ball),
-            "add: a number of it is not finite, or what is known to so many mm is negative");
+            "add: a number of it is not finite, or a number of known_to_mm is negative");
   for (const double far : {1.01e5, -1e9, 1e300}) {  // however far: no memory for the planes between
     const std::string why = "a point of it lies more than 100 m from the origin";
     EXPECT_EQ(refusal(TraceEdit{.points_mm = {Vec3(0), Vec3(0, far, 0)}, .known_to_mm = {}}, ball), "trace: " + why);
@@ -63,7 +63,7 @@ TEST(Edits, WhatCannotBeDoneIsRefusedInWords) {
     return palpate::testing::said_when([&] { apply_edits(ball, edits); });
   };
   EXPECT_EQ(list(3), "edit 1: add: it has no points");
-  EXPECT_EQ(list(10'001), "there are 10001 edits; there may be 10000");
+  EXPECT_EQ(list(10'001), "there are 10001 edits; at most 10000 are allowed");
 }
 
 TEST(Edits, WhatIsTooLargeIsRefusedBeforeItTakesMemory) {

@@ -237,7 +237,7 @@ TEST(LabelMap, OfSeveralLayersIsNoScan) {
   const Catalogue found = find_series(std::array{file});
   EXPECT_TRUE(found.series.empty());
   ASSERT_EQ(found.skipped.size(), 1U);
-  EXPECT_EQ(found.skipped.front().reason, "it holds 2 values a voxel: save one of them in a file of its own");
+  EXPECT_EQ(found.skipped.front().reason, "it holds 2 values for each voxel: save one of them in a file of its own");
 }
 
 TEST(LabelMap, ASegmentThatIsNamedAndNotOutlinedIsListedAndRefused) {

@@ -318,7 +318,7 @@ TEST(SceneJson, a_scene_that_a_program_made_is_checked_too) {
        [](Scene& s) { s.structures[1].color = "red"; }},
       {"structures[2].name: \"liver\" is used twice", [](Scene& s) { s.structures.push_back(s.structures[0]); }},
       {"modes[2].name: \"s\" is used twice", [](Scene& s) { s.modes.push_back(s.modes[0]); }},
-      {"modes: 33 are too many; there may be 32", [](Scene& s) { s.modes.resize(33, s.modes[1]); }},
+      {"modes: 33 are too many; at most 32 are allowed", [](Scene& s) { s.modes.resize(33, s.modes[1]); }},
       {"modes[1].strength_n: is missing; a strength is in newtons",
        [](Scene& s) { s.modes[1].strength_n = TransferFunction(); }},
       {"modes[1].strength_n: -1 is negative; a strength is in newtons, 0 or more",

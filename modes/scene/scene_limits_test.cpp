@@ -93,7 +93,7 @@ TEST(SceneLimits, EachCountLiesBetweenItsEnds) {
       one.name.clear();
       scene.modes.resize(modes, one);
     });
-    EXPECT_EQ(said, modes == 32 ? "" : "modes: 33 are too many; there may be 32");
+    EXPECT_EQ(said, modes == 32 ? "" : "modes: 33 are too many; at most 32 are allowed");
   }
 }
 

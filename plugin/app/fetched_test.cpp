@@ -60,7 +60,8 @@ TEST_F(Fetched, IsRefusedWhereItCannotLie) {
     ADD_FAILURE() << "it was taken";
   } catch (const InputRefused& refused) {
     EXPECT_NE(std::string(refused.what()).find("/palpate/fetched cannot be written ("), std::string::npos);
-    EXPECT_NE(std::string(refused.what()).find("): make room, or make the folder yours"), std::string::npos);
+    EXPECT_NE(std::string(refused.what()).find("): make room, or get the right to write to the folder"),
+              std::string::npos);
   }
 }
 

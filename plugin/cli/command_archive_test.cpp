@@ -81,10 +81,11 @@ TEST_F(CommandArchive, RefusesSettingsThatCannotBe) {
   EXPECT_FALSE(fs::exists(settings()));
   fs::create_directories(settings().parent_path());
   std::ofstream(settings()) << "{";
-  EXPECT_TRUE(says(run("archive list").output, "the settings {} cannot be read ({}): mend or delete the file"));
+  EXPECT_TRUE(says(run("archive list").output, "the settings {} cannot be read ({}): correct or delete the file"));
   fs::remove_all(home_ / "config");
   std::ofstream(home_ / "config") << "a file";
-  EXPECT_TRUE(says(run(clinic).output, "the settings {} cannot be written ({}): make room, or make the folder yours"));
+  EXPECT_TRUE(says(run(clinic).output,
+                   "the settings {} cannot be written ({}): make room, or get the right to write to the folder"));
   EXPECT_TRUE(says(output_of("env -u HOME -u XDG_CONFIG_HOME " + std::string(PALPATE_PROGRAM) + " archive list"),
                    "neither {} nor HOME names a folder for the settings: set one of them"));
 }
@@ -106,7 +107,7 @@ TEST_F(CommandArchive, TellsOfWhatIsMissing) {
   EXPECT_EQ(found.exit, 0);
   EXPECT_TRUE(
       says(found.output,
-           "palpate: the archive holds more than these {} studies: ask more narrowly, or for more with --most"));
+           "palpate: the archive holds more than these {} studies: narrow the search, or list more with --most"));
 }
 
 // PS3.4 B.2.3: the archive keeps the file, and what it says of it is said.

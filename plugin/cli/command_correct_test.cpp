@@ -160,9 +160,9 @@ TEST(CommandCorrect, ContoursMakeANewOneInEveryForm) {
   EXPECT_EQ(both.exit, 2) << both.output;
   const Outcome of_a_file = core.correct(edits, "both.dcm", "--structure " + core.whole);
   EXPECT_EQ(of_a_file.exit, 1);
-  EXPECT_TRUE(
-      says(of_a_file.output,
-           "edit 1: contours: contours make a new structure: they have to be the first edit of one without a file"));
+  EXPECT_TRUE(says(
+      of_a_file.output,
+      "edit 1: contours: contours make a new structure: they have to be the first edit of a structure without a file"));
   EXPECT_FALSE(fs::exists(core.folder / "both.dcm"));
 }
 

@@ -263,7 +263,7 @@ void add_info(CLI::App& program) {
       ->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");
   command->add_flag("--all", options->all,
-                    "Name each file that was set apart, and the reason (for text; JSON always names them)");
+                    "Name each file that was set apart, and the reason (text only; JSON always names them)");
   command->add_flag("--patient", options->patient,
                     "Show the patient's name and id and the date, to check that it is the right patient (text only)");
   command->callback([options] { run(*options); });

@@ -161,7 +161,8 @@ void add_replay(CLI::App& program) {
       ->check(CLI::ExistingFile);
   add_series_option(*command, options->series);
   command->get_option("SERIES")->required(false);
-  command->get_option("--frame")->description("Which frame (from 0); recordings made before 0.2.0 do not say");
+  command->get_option("--frame")->description(
+      "Which frame (from 0); recordings made before 0.2.0 do not contain the number");
   command->add_option("--csv", options->csv, "also write a CSV file with a line for every tick");
   command
       ->add_option("--structures", options->structures,

@@ -62,8 +62,9 @@ void add_serve(CLI::App& program) {
       "serve",
       "Feels a scan and shares it with 3D Slicer or another client of OpenIGTLink, until Ctrl-C.\n"
       "Stylus, proxy and force go out sixty times a second; scenes, marks and label maps come in.\n"
-      "No client can turn the force on or raise a limit. The first that sends something may set scenes, marks and "
-      "label maps; the others read.");
+      "No client can turn the force on or raise a limit. The first client that sends something may set scenes, marks "
+      "and "
+      "label maps; the others can only read.");
   add_session_option(*command, options->session);
   command->add_option("--port", options->address.port, "where to listen; 0: any port that is free")
       ->check(CLI::Range(0, 65535))

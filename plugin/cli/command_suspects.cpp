@@ -106,8 +106,8 @@ void add_suspects(CLI::App& program) {
       "area\n"
       "largest_mm     largest distance to the scan's edge; island, hole: their depth\n"
       "known_to_mm    uncertainty of the scan's edge (two standard deviations)\n"
-      "The list is ordered by area times distance. no_edge has no distance: 0 is printed, and 6 mm counts for the "
-      "order.");
+      "The list is ordered by area times distance. no_edge has no distance: 0 is printed, and the order uses 6 mm "
+      "instead.");
   add_series_option(*command, options->series);
   command->add_option("--structure", options->structure, "FILE or FILE:SEGMENT")->required();
   command->add_flag("--json", options->json, "Print JSON, in patient space (LPS, mm)");

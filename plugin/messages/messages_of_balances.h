@@ -8,7 +8,7 @@ namespace palpate::plugin::messages {
 
 inline constexpr MessageRow balances[] = {
     {"the line is no balance",
-     "mend the line",
+     "correct the line",
      {{"not-json", "not JSON: {}"},
       {"nested-more-than-deep", "nested more than {} deep"},
       {"given-twice", "\"{}\" is given twice"},
@@ -17,7 +17,7 @@ inline constexpr MessageRow balances[] = {
       {"not-a-json-object-but-of-type", "not a JSON object but of type {}"},
       {"not-an-object", "not an object"}}},
     {"a member is not what it should be",
-     "mend that member",
+     "correct that member",
      {{"is-missing", "{} is missing"},
       {"not-a-number", "{} is not a number"},
       {"not-an-array-of-three-numbers", "{} is not an array of three numbers"},
@@ -37,7 +37,7 @@ inline constexpr MessageRow balances[] = {
      "`--solver chain` fits all",
      {{"solver-does-not-fit-this-configuration", "the {} solver does not fit this configuration"}}},
     {"as each answer says",
-     "mend those lines",
+     "correct those lines",
      {{"lines-not-solved", "{} of {} line{} could not be solved: see \"error\" in the answers"}}},
     {"the other end of the pipe is gone",
      "run it again",

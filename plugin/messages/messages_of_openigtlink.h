@@ -19,7 +19,7 @@ inline constexpr MessageRow openigtlink[] = {
      {{"igtl-text-too-long", "a text of {} bytes; at most 65535 fit"},
       {"igtl-scene-too-long", "clients do not get the scene that is felt: it has {} bytes; at most {} fit"}}},
     {"an image that is no label map",
-     "send a segmentation as a label map: whole numbers, one a voxel, in one piece",
+     "send a segmentation as a label map: whole numbers, one for each voxel, in one piece",
      {{"igtl-not-labels", "the image's voxels are no labels: a label is one whole number"},
       {"igtl-not-an-image", "the image's size is not that of its bytes, or its byte order or frame is unknown"},
       {"igtl-part-of-an-image", "this is a part of an image; only whole ones are taken"},
@@ -34,11 +34,11 @@ inline constexpr MessageRow openigtlink[] = {
      "send a label map, or name the file when `palpate serve` is started",
      {{"igtl-file-from-elsewhere", "{}: only a client on this machine may name a file"}}},
     {"a scene or a folder that cannot be felt; the one before stays",
-     "what it says",
+     "follow the advice in the message",
      {{"igtl-refused", "refused: {}"}}},
     {"the network may only tighten what was set at the stylus",
      "nothing; or raise them at the stylus, by `--scene` or in the panel",
-     {{"igtl-limits-stay", "limits or stiffness of the scene are drawn down to those that were set at the stylus"}}},
+     {{"igtl-limits-stay", "limits or stiffness of the scene are reduced to those that were set at the stylus"}}},
     {"the first client that sends something controls",
      "close that client, or go on reading",
      {{"igtl-another-client-controls", "another client controls; this one can only read"}}},
@@ -63,9 +63,9 @@ inline constexpr MessageRow openigtlink[] = {
     {"the session has ended",
      "nothing; or a client that reads faster",
      {{"igtl-served",
-       "palpate: {} messages sent, {} replaced by newer ones; {} requests, {} outrun by newer ones; {} refused, {} "
+       "palpate: {} messages sent, {} replaced by newer ones; {} requests, {} replaced by newer ones; {} refused, {} "
        "passed "
-       "over; {} clients cut or turned away"}}},
+       "over; {} clients disconnected or refused"}}},
 };
 
 }  // namespace palpate::plugin::messages

@@ -7,7 +7,7 @@
 namespace palpate::plugin::messages {
 
 inline constexpr MessageRow scene_structures[] = {
-    {"the scene's `file` or `segment` is not what it is called",
+    {"the scene's `file` or `segment` does not match a structure in the file",
      "`palpate structures` lists them",
      {{"file-holds-no-structures", "{} holds no structures{}"},
       {"file-has-no-such-structure", "{} has no \"{}\"; there are: {}"},
@@ -38,14 +38,15 @@ inline constexpr MessageRow scene_structures[] = {
      {{"structure-of-another-patient",
        "{} was outlined on another patient than the scan's: choose one that was outlined on this study"},
       {"structure-of-another-patient-by-name",
-       "{} names another patient than the scan, and no patient's id joins the two: choose one that was outlined on "
+       "{} names another patient than the scan, and no patient id shows that they are the same patient: choose one "
+       "that was outlined on "
        "this study, or correct its name or id"},
       {"structure-of-a-patient-of-another-name",
        "{} calls the scan's patient by another name or id: check in the views that it lies in the right place"}}},
     {"a structure lies in another frame of reference, and a registration is looked for beside it",
      "put structures and registrations into a folder of their own",
      {{"too-many-files-beside-a-structure",
-       "more than {} files lie beside {}: registrations (REG) are looked for in the first ones alone"}}},
+       "more than {} files lie beside {}: registrations (REG) are looked for only in the first ones"}}},
     {"a registration (REG) of the study joins it to the scan",
      "nothing, if it lies in the right place",
      {{"structure-is-registered", "{} lies in another frame of reference; the registration {} puts it on the scan"}}},
@@ -54,7 +55,7 @@ inline constexpr MessageRow scene_structures[] = {
      {{"no-structures-in-what-was-given",
        "no structures in what was given: no DICOM SEG, RTSTRUCT or label map that can be read"}}},
     {"labels are compared with a scan (`palpate-bench forces --structures`)",
-     "name labels that were drawn on that scan; `palpate structures LABELS --scan SERIES` says how they lie",
+     "name labels that were drawn on that scan; `palpate structures LABELS --scan SERIES` says where they lie",
      {{"no-structure-lies-on-the-scan", "none of the structures given lies on the scan with a voxel inside"}}},
 };
 

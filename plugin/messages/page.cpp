@@ -14,38 +14,42 @@ const std::vector<MessageSection>& message_sections() {
       {"Files and series",
        "What is wrong with a single file stands in the list of `palpate info --all` (\"set apart\"), or among a "
        "series' "
-       "notes; the rest of the\nfolder is used. A file that came damaged is damaged where it came from or was cut on "
+       "notes; the rest of the\nfolder is used. A damaged file is damaged at its source, or was cut on "
        "its "
-       "way: compare its size there, then send it again.",
+       "way: compare its size with the size at the source, then send it again.",
        {io::messages::series, messages::choices}},
       {"Archives",
-       "Of `palpate archive`, `find`, `fetch`, `send`, `marks` and `export`. A message names the archive as you do. "
+       "These are the messages of `palpate archive`, `find`, `fetch`, `send`, `marks` and `export`. A message names "
+       "the archive as you do. "
        "Where "
-       "one quotes a status, it\nis the archive's own answer (DICOM PS3.7 Annex C). None holds a patient's name or id.",
+       "a message quotes a status, it\nis the archive's own answer (DICOM PS3.7 Annex C). No message holds a patient's "
+       "name or id.",
        {io::messages::archives, messages::kept_archives}},
       {"Structures",
        "What is wrong with a file stands in the list of `palpate structures` (\"set apart\"), or as a note of the "
        "structure.",
        {io::messages::structures, messages::scene_structures}},
       {"Scenes",
-       "Every one begins with where: the file, then the key, such as `modes[2].strength_n`. The keys are in\n"
+       "Each message begins with the place: the file, then the key, such as `modes[2].strength_n`. The keys are in\n"
        "[modes/README.md](../../modes/README.md).",
        {modes::messages::scenes}},
       {"Balances (`palpate solve`)",
-       "In the answer's `error`, one line for each line that was refused.",
+       "The answer's `error` has one line for each line that was refused.",
        {messages::balances, solver::messages::balances}},
       {"Sessions, strokes and recordings", "", {messages::sessions}},
       {"OpenIGTLink (`palpate serve`)",
-       "What a client sends and is refused is answered by a STATUS with this text; `palpate serve` says it on stderr, "
+       "If something that a client sends is refused, the answer is a STATUS with this text; `palpate serve` says it on "
+       "stderr, "
        "too.",
        {messages::openigtlink}},
       {"Styluses",
-       "What becomes of the force in each of these faults, and how fast, is in\n"
-       "[device/README.md](../../device/README.md#what-every-fault-comes-to) and its own test.",
+       "What happens to the force in each of these faults, and how fast, is described in\n"
+       "[device/README.md](../../device/README.md#what-happens-in-each-fault). A test checks it.",
        {device::messages::styluses}},
       {"ParaView and the panel",
-       "What the reader and the filters refuse is in ParaView's messages; what the panel refuses stands in the section "
-       "that was asked.",
+       "What the reader and the filters refuse is in ParaView's messages; what the panel refuses is shown in the "
+       "section "
+       "in which you asked for it.",
        {messages::paraview}},
   };
   return sections;
@@ -55,11 +59,11 @@ namespace {
 
 constexpr std::string_view head = R"(# Messages: what happened, why, and what to do
 
-Every error and warning of Palpate, on the command line, in ParaView and in the panel. `{}` stands for what differs: a file, a number,
-a name. An empty cell: the message says it. This page is made of the tables in the sources (`messages.h` of each folder):
+Every error and warning of Palpate, on the command line, in ParaView and in the panel. `{}` stands for what varies: a file, a number,
+a name. An empty cell means that the message itself says it. This page is made from the tables in the sources (`messages.h` of each folder):
 `ninja -C build messages_page` writes it.
 
-On the command line a message begins with `palpate: ` and goes to stderr. The exit code says whose turn it is: 0 done, 1 something in
+On the command line a message begins with `palpate: ` and goes to stderr. The exit code says what happened: 0 done, 1 something in
 the input was refused, 2 wrong usage (`--help` on every command), 3 a fault of the program.
 )";
 

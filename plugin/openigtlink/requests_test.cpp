@@ -107,7 +107,7 @@ TEST(OpenIgtRequests, LimitsAndStiffnessAreNeverRaised) {
   wild.name = "wild";
   client.send_text(scene_name, modes::to_json(wild));
   EXPECT_EQ(text_of_status(shared, client, "drawn down"),
-            "limits or stiffness of the scene are drawn down to those that were set at the stylus");
+            "limits or stiffness of the scene are reduced to those that were set at the stylus");
   ASSERT_TRUE(shared.comes([&] { return shared.session.scene().name == "wild"; }));
   const modes::Limits felt = shared.session.scene().limits;
   EXPECT_EQ(felt.force_n, 1.5);

@@ -34,7 +34,7 @@ class OpenStylus {
 
  private:
   struct Open {};
-  OpenStylus(std::shared_ptr<device::Stylus> open, Open /*as it is*/) noexcept : stylus_(std::move(open)) {}
+  OpenStylus(std::shared_ptr<device::Stylus> open, Open /*is open already*/) noexcept : stylus_(std::move(open)) {}
 
   std::shared_ptr<device::Stylus> stylus_;
 };

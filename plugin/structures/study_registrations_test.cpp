@@ -80,7 +80,7 @@ TEST(StudyRegistrations, AreLookedForInSoManyFilesAndNoMore) {
     ASSERT_EQ(structure.warnings.size(), 1U);
     EXPECT_EQ(structure.warnings[0], "more than " + std::to_string(most) + " files lie beside " +
                                          structure.file.filename().string() +
-                                         ": registrations (REG) are looked for in the first ones alone");
+                                         ": registrations (REG) are looked for only in the first ones");
   }
 }
 

@@ -142,7 +142,8 @@ TEST(StudyStructures, OfAnotherPatientAreRefused) {
   EXPECT_EQ(said_of("8", "Roe^Richard"), another);
   EXPECT_EQ(said_of("8", ""), another);
   constexpr const char* by_name =
-      "rt.dcm names another patient than the scan, and no patient's id joins the two: choose one that was outlined on "
+      "rt.dcm names another patient than the scan, and no patient id shows that they are the same patient: choose one "
+      "that was outlined on "
       "this study, or correct its name or id";
   EXPECT_EQ(said_of("", "Roe^Richard"), by_name);
   const TestFolder folder;

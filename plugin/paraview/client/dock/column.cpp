@@ -86,7 +86,7 @@ QWidget* Column::build_tissues(const Follows& models) {
   connect(drawn, &QCheckBox::toggled, this, &Column::boundaries_wanted);
   auto* const crossed = new QCheckBox(tr("Crosshair"), box);
   crossed->setObjectName(QStringLiteral("palpateCrosshair"));
-  crossed->setToolTip(tr("Shows where the other two slices lie. Hold Shift, and they follow the pointer."));
+  crossed->setToolTip(tr("Shows where the other two slices lie. Hold Shift to make them follow the pointer."));
   connect(crossed, &QCheckBox::toggled, this, &Column::crosshair_wanted);
   auto* const shown_lines = new QHBoxLayout;
   shown_lines->addWidget(drawn, 1);

@@ -32,7 +32,8 @@ UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& win
   });
   connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, [this] { ending_ = true; });
   scans.set_may_leave([this] {
-    return may_lose(work_.of_scan(), tr("Another scan takes the place of this one."), [this] { work_.let_scene_go(); });
+    return may_lose(work_.of_scan(), tr("Another scan is about to replace this one."),
+                    [this] { work_.let_scene_go(); });
   });
   new HostGuards(
       window,

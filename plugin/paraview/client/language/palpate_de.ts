@@ -83,7 +83,7 @@
         <translation>Prüfen</translation>
     </message>
     <message>
-        <source>Tests whether the archive answers and knows us (C-ECHO)</source>
+        <source>Tests whether the archive answers and accepts our AE title (C-ECHO)</source>
         <translation>Ob das Archiv antwortet und uns kennt (C-ECHO)</translation>
     </message>
     <message>
@@ -91,7 +91,7 @@
         <translation>Eintragen…</translation>
     </message>
     <message>
-        <source>Adds an archive, or changes the settings of the one of that name</source>
+        <source>Adds an archive, or changes the settings of the archive with that name</source>
         <translation>Trägt ein Archiv ein oder ändert das mit diesem Namen</translation>
     </message>
     <message>
@@ -130,7 +130,7 @@
         <translation>%1 ausschalten</translation>
     </message>
     <message>
-        <source>Its color, here and in the views</source>
+        <source>The boundary&apos;s color, here and in the views</source>
         <translation>Ihre Farbe, hier und in den Ansichten</translation>
     </message>
     <message>
@@ -217,7 +217,7 @@
         <translation>Lineal</translation>
     </message>
     <message>
-        <source>Drag in a slice to measure a length (key L). The delete key takes the last one away.</source>
+        <source>Drag in a slice to measure a length (key L). The delete key deletes the last measurement.</source>
         <translation>In einer Schicht ziehen, um eine Länge zu messen (Taste L). Die Taste Entf nimmt die letzte weg.</translation>
     </message>
     <message>
@@ -225,7 +225,7 @@
         <translation>Winkel</translation>
     </message>
     <message>
-        <source>Drag along one leg in a slice, then click at the end of the other (key A).</source>
+        <source>In a slice, drag along one leg of the angle, then click at the end of the other leg (key A).</source>
         <translation>In einer Schicht am einen Schenkel ziehen, dann auf das Ende des anderen klicken (Taste A).</translation>
     </message>
     <message>
@@ -261,7 +261,7 @@
         <translation>Erweitert</translation>
     </message>
     <message>
-        <source>ParaView&apos;s own toolbars, pipeline and properties</source>
+        <source>Shows ParaView&apos;s own toolbars, pipeline and properties</source>
         <translation>ParaViews eigene Werkzeugleisten, Pipeline und Eigenschaften</translation>
     </message>
     <message>
@@ -367,7 +367,7 @@
         <translation>So lassen</translation>
     </message>
     <message>
-        <source>The outline is correct at this place</source>
+        <source>Marks the outline as correct at this place</source>
         <translation>Der Umriss stimmt an dieser Stelle</translation>
     </message>
     <message>
@@ -435,7 +435,7 @@
         <translation>Speichern…</translation>
     </message>
     <message>
-        <source>As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage</source>
+        <source>Saves it as DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage</source>
         <translation>Als DICOM SEG oder RTSTRUCT, NIfTI, NRRD oder MetaImage</translation>
     </message>
     <message>
@@ -443,7 +443,7 @@
         <translation>Senden…</translation>
     </message>
     <message>
-        <source>Sends to an archive; first shows what, and for which patient</source>
+        <source>Sends the outline to an archive. First shows what is sent, and for which patient.</source>
         <translation>Sendet an ein Archiv; zeigt erst, was und für welchen Patienten</translation>
     </message>
     <message>
@@ -564,7 +564,7 @@
 <context>
     <name>CurveProfile</name>
     <message>
-        <source>The force along a line in the present scene. The dashed curve shows it before the curve was dragged. Hold the pointer still over a boundary in a slice, touch a boundary, or pick two points in Force profile.</source>
+        <source>The force along a line in the present scene. The dashed line shows it before the last drag. Hold the pointer still over a boundary in a slice, touch a boundary, or pick two points in Force profile.</source>
         <translation>Die Kraft längs einer Linie, wie sie jetzt zu fühlen wäre; gestrichelt: bevor die Kurve gezogen wurde. Den Zeiger in einer Schicht auf einer Grenze ruhen lassen, eine berühren oder im Kraftprofil zwei Punkte wählen.</translation>
     </message>
     <message>
@@ -705,7 +705,7 @@
         <translation>Zeigen</translation>
     </message>
     <message>
-        <source>On: the views show the filtered values, as they are felt. Off: as they were scanned.</source>
+        <source>On: the views show the filtered values, as they are felt. Off: the views show the values as scanned.</source>
         <translation>An: Die Ansichten zeigen die gefilterten Werte, wie sie gefühlt werden. Aus: wie sie aufgenommen wurden.</translation>
     </message>
     <message>
@@ -729,11 +729,11 @@
         <translation>%1 (ungefiltert gezeigt)</translation>
     </message>
     <message>
-        <source>Side of the square in the slice</source>
+        <source>Width of the square of pixels in a slice</source>
         <translation>Kante des Quadrats in der Schicht</translation>
     </message>
     <message>
-        <source>Values that differ by less are taken for noise</source>
+        <source>Differences smaller than this count as noise</source>
         <translation>Werte, die sich um weniger unterscheiden, gelten als Rauschen</translation>
     </message>
     <message>
@@ -991,7 +991,7 @@
         <translation>Senden…</translation>
     </message>
     <message>
-        <source>Sends to an archive; first shows what, and for which patient</source>
+        <source>Sends the marks to an archive. First shows what is sent, and for which patient.</source>
         <translation>Sendet an ein Archiv; zeigt erst, was und für welchen Patienten</translation>
     </message>
     <message>
@@ -1171,7 +1171,7 @@
         <translation>Ebene</translation>
     </message>
     <message>
-        <source>Put it where the proxy is</source>
+        <source>Put the landmark where the proxy is</source>
         <translation>An den Proxy setzen</translation>
     </message>
     <message>
@@ -1294,7 +1294,7 @@
         <translation>Fadenkreuz</translation>
     </message>
     <message>
-        <source>Shows where the other two slices lie. Hold Shift, and they follow the pointer.</source>
+        <source>Shows where the other two slices lie. Hold Shift to make them follow the pointer.</source>
         <translation>Zeigt, wo die beiden anderen Schichten liegen. Mit gedrückter Umschalttaste folgen sie dem Zeiger.</translation>
     </message>
 </context>
@@ -1362,7 +1362,7 @@
 <context>
     <name>UnsavedGuard</name>
     <message>
-        <source>Another scan takes the place of this one.</source>
+        <source>Another scan is about to replace this one.</source>
         <translation>Eine andere Aufnahme ersetzt diese.</translation>
     </message>
     <message>
@@ -1417,7 +1417,7 @@
         <translation>Stift</translation>
     </message>
     <message>
-        <source>Where the stylus is now</source>
+        <source>Uses the place where the stylus is now</source>
         <translation>Wo der Stift jetzt ist</translation>
     </message>
     <message>
@@ -1503,7 +1503,7 @@
         <translation>Vergleicht mit einer anderen Aufzeichnung desselben Strichs, Ort für Ort, bei beliebiger Geschwindigkeit</translation>
     </message>
     <message>
-        <source>Disconnect the stylus to play: the views show what it feels</source>
+        <source>Disconnect the stylus to play. While it is connected, the views show what it feels</source>
         <translation>Zum Abspielen den Stift trennen: Die Ansichten zeigen, was er fühlt</translation>
     </message>
 </context>
@@ -1939,7 +1939,7 @@ ID %2, Studie vom %3</translation>
         <translation>Ein Archiv durchsuchen</translation>
     </message>
     <message>
-        <source>Opened last</source>
+        <source>Recently opened</source>
         <translation>Zuletzt geöffnet</translation>
     </message>
     <message>
@@ -1966,7 +1966,7 @@ ID %2, Studie vom %3</translation>
         <translation>In der Szene gezeichnet</translation>
     </message>
     <message>
-        <source>Volume %1 ml, as first drawn %2 ml: %3 ml were added, %4 ml removed. The edge moved %5 mm at most.</source>
+        <source>Volume %1 ml (first drawn: %2 ml). %3 ml were added, %4 ml removed. The edge moved %5 mm at most.</source>
         <translation>%1 ml, gezeichnet %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Umriss wurde um höchstens %5 mm verschoben.</translation>
     </message>
     <message>
@@ -1990,7 +1990,7 @@ ID %2, Studie vom %3</translation>
         <translation>Strukturen hinzufügen…</translation>
     </message>
     <message>
-        <source>DICOM SEG or RTSTRUCT. Those in the scan&apos;s folder are found with it.</source>
+        <source>Adds files, DICOM SEG or RTSTRUCT. Those in the scan&apos;s folder are found automatically.</source>
         <translation>DICOM SEG oder RTSTRUCT. Die im Ordner der Aufnahme werden mit ihr gefunden.</translation>
     </message>
     <message>
@@ -2006,7 +2006,7 @@ ID %2, Studie vom %3</translation>
         <translation>Grenze</translation>
     </message>
     <message>
-        <source>Its edge resists the stylus like the wall of an organ</source>
+        <source>The structure&apos;s edge resists the stylus like the wall of an organ</source>
         <translation>Ihr Rand hält den Stift auf wie die Wand eines Organs</translation>
     </message>
     <message>
@@ -2070,15 +2070,15 @@ ID %2, Studie vom %3</translation>
         <translation>Korrigieren</translation>
     </message>
     <message>
-        <source>Lists the doubtful places of its outline and lets you correct it: see the guide</source>
+        <source>Lists the doubtful places of the outline and lets you correct it: see the guide</source>
         <translation>Listet die zweifelhaften Stellen ihres Umrisses und ermöglicht, ihn zu korrigieren (siehe Anleitung)</translation>
     </message>
     <message>
-        <source>Volume %1 ml, in the file %2 ml: %3 ml were added, %4 ml removed. The edge moved %5 mm at most.</source>
+        <source>Volume %1 ml (in the file: %2 ml). %3 ml were added, %4 ml removed. The edge moved %5 mm at most.</source>
         <translation>%1 ml, in der Datei %2 ml: %3 ml hinzugefügt, %4 ml weggenommen. Der Umriss wurde um höchstens %5 mm verschoben.</translation>
     </message>
     <message>
-        <source>It reaches %1 mm into %2.</source>
+        <source>The structure reaches %1 mm into %2.</source>
         <translation>Er reicht %1 mm in %2 hinein.</translation>
     </message>
     <message>
@@ -2129,7 +2129,7 @@ ID %2, Studie vom %3</translation>
         <translation>Ansicht</translation>
     </message>
     <message>
-        <source>The workspace of the stylus covers what the 3D view shows, and is turned as the view is.</source>
+        <source>The workspace of the stylus covers what the 3D view shows, and is rotated like the view.</source>
         <translation>Was die 3D-Ansicht zeigt, ist in Reichweite, gedreht wie die Ansicht.</translation>
     </message>
     <message>
@@ -2161,7 +2161,7 @@ ID %2, Studie vom %3</translation>
         <translation>Schichten folgen</translation>
     </message>
     <message>
-        <source>The slices through the proxy are shown as it moves.</source>
+        <source>While the proxy moves, the views show the slices through it.</source>
         <translation>Die Schichten durch den Proxy werden gezeigt, während er sich bewegt.</translation>
     </message>
     <message>
@@ -2193,7 +2193,7 @@ ID %2, Studie vom %3</translation>
         <translation>Erst eine Aufnahme öffnen.</translation>
     </message>
     <message>
-        <source>it gives no force</source>
+        <source>the device gives no force</source>
         <translation>er gibt keine Kraft</translation>
     </message>
     <message>
@@ -2205,11 +2205,11 @@ ID %2, Studie vom %3</translation>
         <translation>das Drehmoment bleibt null</translation>
     </message>
     <message>
-        <source>its own watchdog: %1</source>
+        <source>the device&apos;s own watchdog: %1</source>
         <translation>seine eigene Überwachung: %1</translation>
     </message>
     <message>
-        <source>No guardian was found: if the program ends or hangs, only the device takes its force away (%1). Install palpate-guardian.</source>
+        <source>No guardian was found: if the program ends or hangs, only the device itself removes the force (%1). Install palpate-guardian.</source>
         <translation>Kein Wächter gefunden: Wenn das Programm endet oder hängt, nimmt nur das Gerät seine Kraft weg (%1). palpate-guardian installieren.</translation>
     </message>
     <message>
@@ -2267,7 +2267,7 @@ ID %2, Studie vom %3</translation>
         <translation>Öffnen…</translation>
     </message>
     <message>
-        <source>A scene&apos;s file</source>
+        <source>Opens a scene from a file</source>
         <translation>Die Datei einer Szene</translation>
     </message>
     <message>
@@ -2275,7 +2275,7 @@ ID %2, Studie vom %3</translation>
         <translation>Speichern…</translation>
     </message>
     <message>
-        <source>Keeps this scene in a file</source>
+        <source>Saves this scene to a file</source>
         <translation>Speichert diese Szene in eine Datei</translation>
     </message>
     <message>
@@ -2369,7 +2369,7 @@ ID %2, Studie vom %3</translation>
         <translation>Rechner</translation>
     </message>
     <message>
-        <source>Its machine&apos;s name or address</source>
+        <source>The name or address of the archive&apos;s machine</source>
         <translation>Name oder Adresse seines Rechners</translation>
     </message>
     <message>
@@ -2417,7 +2417,7 @@ ID %2, Studie vom %3</translation>
         <translation>Prüfen</translation>
     </message>
     <message>
-        <source>Whether it answers and knows us (C-ECHO)</source>
+        <source>Tests whether the archive answers and accepts our AE title (C-ECHO)</source>
         <translation>Ob es antwortet und uns kennt (C-ECHO)</translation>
     </message>
     <message>
@@ -2449,7 +2449,7 @@ ID %2, Studie vom %3</translation>
         <translation>TLS: Schlüssel</translation>
     </message>
     <message>
-        <source>Its private key (PEM), without a pass phrase</source>
+        <source>The private key of our certificate (PEM), without a pass phrase</source>
         <translation>Sein privater Schlüssel (PEM), ohne Kennwort</translation>
     </message>
     <message>
@@ -2464,7 +2464,7 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>ServerScan</name>
     <message>
-        <source>Looking for a copy here</source>
+        <source>Looking for a copy on this machine</source>
         <translation>Eine Kopie wird hier gesucht</translation>
     </message>
     <message>
@@ -2476,7 +2476,7 @@ ID %2, Studie vom %3</translation>
         <translation>Wird mit dem Server verglichen</translation>
     </message>
     <message>
-        <source>Comparing the copy here</source>
+        <source>Comparing the copy on this machine</source>
         <translation>Die Kopie hier wird verglichen</translation>
     </message>
 </context>

@@ -88,7 +88,7 @@ ClinicalToolbar::ClinicalToolbar(QComboBox& window, QComboBox& look, QWidget* pa
   auto* const gap = new QWidget(this);
   gap->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   addWidget(gap);
-  advanced_ = add("palpateAdvanced", tr("Advanced"), tr("ParaView's own toolbars, pipeline and properties"));
+  advanced_ = add("palpateAdvanced", tr("Advanced"), tr("Shows ParaView's own toolbars, pipeline and properties"));
   advanced_->setCheckable(true);
   connect(advanced_, &QAction::triggered, this, &ClinicalToolbar::advanced_wanted);
   show_connection(false, false);
@@ -133,9 +133,9 @@ void ClinicalToolbar::add_layouts() {
 
 void ClinicalToolbar::add_measures() {
   ruler_ = add("palpateRuler", tr("Ruler"),
-               tr("Drag in a slice to measure a length (key L). The delete key takes the last one away."));
+               tr("Drag in a slice to measure a length (key L). The delete key deletes the last measurement."));
   angle_ = add("palpateAngle", tr("Angle"),
-               tr("Drag along one leg in a slice, then click at the end of the other (key A)."));
+               tr("In a slice, drag along one leg of the angle, then click at the end of the other leg (key A)."));
   for (const auto& [action, what] : {std::pair{ruler_, Measure::ruler}, {angle_, Measure::angle}}) {
     action->setCheckable(true);
     action->setIcon(measure_icon(palette(), what));

@@ -122,7 +122,7 @@ void StartPage::refresh_recent() {
   qDeleteAll(recent_->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
   const QStringList folders = recent_folders();
   if (folders.isEmpty()) return;
-  recent_->layout()->addWidget(heading(tr("Opened last"), "font-size: 15px; font-weight: bold"));
+  recent_->layout()->addWidget(heading(tr("Recently opened"), "font-size: 15px; font-weight: bold"));
   for (const QString& folder : folders) {
     auto* const button = new QPushButton(folder);
     button->setObjectName(QStringLiteral("palpateStartFolder"));

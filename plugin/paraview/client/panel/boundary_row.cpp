@@ -93,7 +93,7 @@ void BoundaryRow::add_switch(QWidget& parent, QGridLayout& grid, int row) {
   color_ = new QToolButton(&parent);
   color_->setObjectName(QStringLiteral("palpateColor") + number);
   color_->setFixedSize(18, 18);
-  color_->setToolTip(tr("Its color, here and in the views"));
+  color_->setToolTip(tr("The boundary's color, here and in the views"));
   connect(color_, &QToolButton::clicked, this, [this] {
     const QString name = name_of(model_.scene(), mode_);
     const QColor chosen = QColorDialog::getColor(color_of(of_scene()), color_, name, QColorDialog::DontUseNativeDialog);

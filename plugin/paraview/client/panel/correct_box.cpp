@@ -90,7 +90,7 @@ QWidget* CorrectBox::build_tools() {
           model_.take_scan_edge(model_.doubtful().places()->places[*model_.doubtful().at()].position_mm);
       });
   leave_ = add_tool_button(*places, *this, "palpateLeavePlace", tr("Leave it"),
-                           tr("The outline is correct at this place"), [this] {
+                           tr("Marks the outline as correct at this place"), [this] {
                              if (model_.doubtful().at()) model_.leave(*model_.doubtful().at());
                            });
   places->addStretch(1);
@@ -159,10 +159,11 @@ QWidget* CorrectBox::build_ways_out() {
     row->addWidget(button);
     return button;
   };
-  save_ = add_button("palpateCorrectSave", tr("Save…"), tr("As DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"),
-                     &CorrectBox::save_wanted);
+  save_ = add_button("palpateCorrectSave", tr("Save…"),
+                     tr("Saves it as DICOM SEG or RTSTRUCT, NIfTI, NRRD or MetaImage"), &CorrectBox::save_wanted);
   send_ = add_button("palpateCorrectSend", tr("Send…"),
-                     tr("Sends to an archive; first shows what, and for which patient"), &CorrectBox::send_wanted);
+                     tr("Sends the outline to an archive. First shows what is sent, and for which patient."),
+                     &CorrectBox::send_wanted);
   return box;
 }
 

@@ -41,7 +41,7 @@ CurveProfile::CurveProfile(SessionController& session, SceneModel& model, Stroke
   chart_ = new ChartPicture(small_chart_pixels, this);
   chart_->setObjectName(QStringLiteral("palpateCurveProfileChart"));
   chart_->setToolTip(
-      tr("The force along a line in the present scene. The dashed curve shows it before the curve was dragged. Hold "
+      tr("The force along a line in the present scene. The dashed line shows it before the last drag. Hold "
          "the pointer still over a boundary in a slice, touch a boundary, or pick two points in Force profile."));
   column->addWidget(chart_);
   words_ = new QLabel(this);

@@ -79,7 +79,7 @@ void MarksSection::build() {
   row->addStretch(1);
   send_ = new QPushButton(tr("Send…"), this);
   send_->setObjectName(QStringLiteral("palpateSendMarks"));
-  send_->setToolTip(tr("Sends to an archive; first shows what, and for which patient"));
+  send_->setToolTip(tr("Sends the marks to an archive. First shows what is sent, and for which patient."));
   connect(send_, &QPushButton::clicked, this, &MarksSection::send_wanted);
   row->addWidget(send_);
   column->addLayout(row);

@@ -153,7 +153,7 @@ void ModesSection::build_parameters(QWidget& parent) {
   });
   here_ = new QToolButton(&parent);
   here_->setObjectName(QStringLiteral("palpateHere"));
-  here_->setText(tr("Put it where the proxy is"));
+  here_->setText(tr("Put the landmark where the proxy is"));
   connect(here_, &QToolButton::clicked, this,
           [this] { set(tr("Place"), [at = session_.last().proxy_mm](modes::Mode& m) { m.position_mm = at; }); });
   form->addRow(tr("Place"), here_);

@@ -102,9 +102,10 @@ QWidget* ProfileSection::build_points() {
     grid->addWidget(field, row, 1, 1, 2);
     auto* const cell = new QHBoxLayout;
     const std::string button = std::string(name) + "Stylus";
-    add_tool_button(*cell, *this, button.c_str(), tr("Stylus"), tr("Where the stylus is now"), [this, point] {
-      if (session_.last().connected) set_point(point, session_.last().probe_mm);
-    });
+    add_tool_button(*cell, *this, button.c_str(), tr("Stylus"), tr("Uses the place where the stylus is now"),
+                    [this, point] {
+                      if (session_.last().connected) set_point(point, session_.last().probe_mm);
+                    });
     grid->addLayout(cell, row, 3);
     return field;
   };

@@ -251,7 +251,8 @@ void RecordingsSection::show_player() {
   play_->setEnabled(!held);
   play_->setIcon(style()->standardIcon(playback_.is_playing() ? QStyle::SP_MediaPause : QStyle::SP_MediaPlay));
   held_->setVisible(held);
-  play_->setToolTip(held ? tr("Disconnect the stylus to play: the views show what it feels") : tr("Play or pause"));
+  play_->setToolTip(held ? tr("Disconnect the stylus to play. While it is connected, the views show what it feels")
+                         : tr("Play or pause"));
   slider_->setEnabled(!held);
   const QSignalBlocker quiet(slider_);
   slider_->setValue(static_cast<int>(std::lround(1e3 * playback_.at_s())));

@@ -70,8 +70,8 @@ QString StructuresSection::change_in_words() const {
   const auto number = [](double of) { return QString::number(of, 'f', 2); };
   const QString text =
       contours_of(entry->structure)
-          ? tr("Volume %1 ml, as first drawn %2 ml: %3 ml were added, %4 ml removed. The edge moved %5 mm at most.")
-          : tr("Volume %1 ml, in the file %2 ml: %3 ml were added, %4 ml removed. The edge moved %5 mm at most.");
+          ? tr("Volume %1 ml (first drawn: %2 ml). %3 ml were added, %4 ml removed. The edge moved %5 mm at most.")
+          : tr("Volume %1 ml (in the file: %2 ml). %3 ml were added, %4 ml removed. The edge moved %5 mm at most.");
   return text.arg(number(volume_of(*entry) / ml), number(entry->made.measures->volume_mm3 / ml),
                   number(change.added_mm3 / ml), number(change.removed_mm3 / ml), number(change.largest_mm)) +
          margins_in_words();
@@ -101,7 +101,7 @@ QString StructuresSection::margins_in_words() const {
   for (const OutlineMargin& one : margins_.of(corrected())) {
     const QString name = QString::fromStdString(one.name);
     const auto mm = [](double length) { return QString::number(length, 'f', 1); };
-    text += QLatin1Char('\n') + (one.mm < 0 ? tr("It reaches %1 mm into %2.").arg(mm(-one.mm), name)
+    text += QLatin1Char('\n') + (one.mm < 0 ? tr("The structure reaches %1 mm into %2.").arg(mm(-one.mm), name)
                                             : tr("Distance to %1: %2 mm. The keep-out margin of %1 is %3 mm wide.")
                                                   .arg(name, mm(one.mm), mm(one.keep_out_mm)));
   }

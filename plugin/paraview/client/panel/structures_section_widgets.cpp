@@ -57,7 +57,8 @@ void StructuresSection::build() {
   column->addWidget(&correct_box_->out());  // it goes on where the correction ends
   auto* const row = new QHBoxLayout;
   add_tool_button(*row, *this, "palpateAddStructures", tr("Add structures…"),
-                  tr("DICOM SEG or RTSTRUCT. Those in the scan's folder are found with it."), [this] { ask_files(); });
+                  tr("Adds files, DICOM SEG or RTSTRUCT. Those in the scan's folder are found automatically."),
+                  [this] { ask_files(); });
   row->addStretch(1);
   row->addWidget(new QLabel(tr("Opacity"), this));
   opacity_ = new QSlider(Qt::Horizontal, this);
@@ -79,13 +80,12 @@ QWidget* StructuresSection::build_uses() {
   auto* const row = new QHBoxLayout(box);
   row->setContentsMargins(0, 0, 0, 0);
   const auto name_of_chosen = [this] { return widget_text(chosen()->structure.name); };
-  uses_.push_back(add_tool_button(*row, *this, "palpateStructureBoundary", tr("Boundary"),
-                                  tr("Its edge resists the stylus like the wall of an organ"), [this, name_of_chosen] {
-                                    use(tr("Boundary of %1").arg(name_of_chosen()),
-                                        [structure = chosen()->structure](modes::Scene& scene) {
-                                          add_boundary_of(scene, structure);
-                                        });
-                                  }));
+  uses_.push_back(add_tool_button(
+      *row, *this, "palpateStructureBoundary", tr("Boundary"),
+      tr("The structure's edge resists the stylus like the wall of an organ"), [this, name_of_chosen] {
+        use(tr("Boundary of %1").arg(name_of_chosen()),
+            [structure = chosen()->structure](modes::Scene& scene) { add_boundary_of(scene, structure); });
+      }));
   uses_.push_back(add_tool_button(
       *row, *this, "palpateStructureKeepOut", tr("Keep out"),
       tr("The stylus is pushed back as soon as it is in a margin around the structure"), [this, name_of_chosen] {
@@ -112,7 +112,7 @@ QWidget* StructuresSection::build_uses() {
   gate->setMenu(menu);
   uses_.push_back(gate);
   correct_ = add_tool_button(*row, *this, "palpateCorrect", tr("Correct"),
-                             tr("Lists the doubtful places of its outline and lets you correct it: see the guide"),
+                             tr("Lists the doubtful places of the outline and lets you correct it: see the guide"),
                              [this] { correct(correct_->isChecked()); });
   correct_->setCheckable(true);
   uses_.push_back(correct_);

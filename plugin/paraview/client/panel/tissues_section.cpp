@@ -70,8 +70,9 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   scenes_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   scenes_->setMinimumContentsLength(10);
   top->addWidget(scenes_, 1);
-  add_tool_button(*top, *this, "palpateOpenScene", tr("Open…"), tr("A scene's file"), [this] { open_file(); });
-  add_tool_button(*top, *this, "palpateSaveScene", tr("Save…"), tr("Keeps this scene in a file"),
+  add_tool_button(*top, *this, "palpateOpenScene", tr("Open…"), tr("Opens a scene from a file"),
+                  [this] { open_file(); });
+  add_tool_button(*top, *this, "palpateSaveScene", tr("Save…"), tr("Saves this scene to a file"),
                   [this] { save_file(); });
   column->addLayout(top);
   rows_ = new QWidget(this);

@@ -130,7 +130,8 @@ void ServerScan::look_for_copies() {
   std::string name = vtkSMPropertyHelper(&proxy, "SeriesUid").GetAsString();
   if (name.empty()) name = vtkSMPropertyHelper(&proxy, "SeriesUids").GetAsString();  // the first of them is meant
   loader_.find_copies(
-      places_, name, head_.geometry.dimensions, [this](double done) { progress_(tr("Looking for a copy here"), done); },
+      places_, name, head_.geometry.dimensions,
+      [this](double done) { progress_(tr("Looking for a copy on this machine"), done); },
       [this](const std::vector<ScanCopy>& copies, const std::string&) {
         copies_ = copies;
         start();
@@ -194,7 +195,7 @@ void ServerScan::compare_copies() {
     return;
   }
   loader_.load_copy(
-      copies_, frame_, hash, [this](double done) { progress_(tr("Comparing the copy here"), done); },
+      copies_, frame_, hash, [this](double done) { progress_(tr("Comparing the copy on this machine"), done); },
       [this](const auto& volume, const std::string&) {
         if (volume) {
           finish(volume, words(say("felt-from-the-copy-on-this-machine")));

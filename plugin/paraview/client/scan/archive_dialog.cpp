@@ -52,7 +52,7 @@ ArchiveDialog::ArchiveDialog(Job& echoing, QWidget* parent) : QDialog(parent), e
   };
   const io::Archive defaults;
   name_ = line("palpateArchiveName", tr("Name"), tr("The name of the archive in this program"));
-  host_ = line("palpateArchiveHost", label_of("--host"), tr("Its machine's name or address"));
+  host_ = line("palpateArchiveHost", label_of("--host"), tr("The name or address of the archive's machine"));
   port_ = port("palpateArchivePort", label_of("--port"), defaults.port, tr("Its DICOM port"));
   called_ = line("palpateArchiveCalled", label_of("--called"), tr("The archive's AE title (ask its administrator)"));
   calling_ = line("palpateArchiveCalling", label_of("--calling"),
@@ -73,7 +73,7 @@ ArchiveDialog::ArchiveDialog(Job& echoing, QWidget* parent) : QDialog(parent), e
   auto* const buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
   QPushButton* const echo = buttons->addButton(tr("Echo"), QDialogButtonBox::ActionRole);
   echo->setObjectName(QStringLiteral("palpateArchiveEcho"));
-  echo->setToolTip(tr("Whether it answers and knows us (C-ECHO)"));
+  echo->setToolTip(tr("Tests whether the archive answers and accepts our AE title (C-ECHO)"));
   buttons->button(QDialogButtonBox::Ok)->setObjectName(QStringLiteral("palpateArchiveOk"));
   connect(echo, &QPushButton::clicked, this, [this] { this->echo(); });
   connect(buttons, &QDialogButtonBox::accepted, this, &ArchiveDialog::accept);
@@ -107,7 +107,8 @@ void ArchiveDialog::build_tls(QFormLayout& form) {
            tr("The certificate (PEM) of the authority that signed the archive's certificate. Empty: no TLS."));
   certificate_ = file("palpateArchiveTlsCertificate", label_of("--tls-certificate"),
                       tr("Our own certificate (PEM). It is needed if the archive asks for one, and for C-MOVE."));
-  key_ = file("palpateArchiveTlsKey", label_of("--tls-key"), tr("Its private key (PEM), without a pass phrase"));
+  key_ = file("palpateArchiveTlsKey", label_of("--tls-key"),
+              tr("The private key of our certificate (PEM), without a pass phrase"));
   tls_name_ = new QLineEdit(this);
   tls_name_->setObjectName(QStringLiteral("palpateArchiveTlsName"));
   tls_name_->setToolTip(tr("The host name in the archive's certificate, if it differs from the host above"));

@@ -28,12 +28,12 @@ void ArchiveTab::build_archives() {
   row->addWidget(archives_, 1);
   echo_ = new QPushButton(tr("Echo"), this);
   echo_->setObjectName(QStringLiteral("palpateEcho"));
-  echo_->setToolTip(tr("Tests whether the archive answers and knows us (C-ECHO)"));
+  echo_->setToolTip(tr("Tests whether the archive answers and accepts our AE title (C-ECHO)"));
   connect(echo_, &QPushButton::clicked, this, [this] { echo(); });
   row->addWidget(echo_);
   auto* const enter = new QPushButton(tr("Add…"), this);
   enter->setObjectName(QStringLiteral("palpateArchiveAdd"));
-  enter->setToolTip(tr("Adds an archive, or changes the settings of the one of that name"));
+  enter->setToolTip(tr("Adds an archive, or changes the settings of the archive with that name"));
   connect(enter, &QPushButton::clicked, this, [this] { enter_archive(); });
   row->addWidget(enter);
   static_cast<QVBoxLayout*>(layout())->addLayout(row);

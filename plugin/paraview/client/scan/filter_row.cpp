@@ -64,7 +64,8 @@ FilterRow::FilterRow(SceneModel& model, SessionController& session, ScanModel& s
   row->addWidget(amount_);
   shown_ = new QCheckBox(tr("Show"), this);
   shown_->setObjectName(QStringLiteral("palpateFilterShown"));
-  shown_->setToolTip(tr("On: the views show the filtered values, as they are felt. Off: as they were scanned."));
+  shown_->setToolTip(
+      tr("On: the views show the filtered values, as they are felt. Off: the views show the values as scanned."));
   shown_->setChecked(true);
   row->addWidget(shown_);
   column->addLayout(row);
@@ -144,7 +145,7 @@ void FilterRow::offer_amount() {
     amount_->setSingleStep(2);
     amount_->setRange(3, 5);
     amount_->setSuffix(tr(" pixels"));
-    amount_->setToolTip(tr("Side of the square in the slice"));
+    amount_->setToolTip(tr("Width of the square of pixels in a slice"));
     amount_->setValue(3);
   } else if (type->reads_sigma_value) {
     amount_->setDecimals(0);
@@ -153,7 +154,7 @@ void FilterRow::offer_amount() {
     amount_->setSuffix(session_.live().scan() && !session_.live().scan()->unit.empty()
                            ? QStringLiteral(" ") + QString::fromStdString(session_.live().scan()->unit)
                            : QString());
-    amount_->setToolTip(tr("Values that differ by less are taken for noise"));
+    amount_->setToolTip(tr("Differences smaller than this count as noise"));
     amount_->setValue(usual_noise);
   } else {
     amount_->setDecimals(1);

@@ -138,7 +138,7 @@ void StylusSection::build_workspace() {
   add(0, "palpateFitScan", tr("Scan"), tr("The whole scan is in the stylus' reach."),
       [this] { return fit_scan(model_.scene().workspace); });
   add(1, "palpateFitView", tr("View"),
-      tr("The workspace of the stylus covers what the 3D view shows, and is turned as the view is."), [this] {
+      tr("The workspace of the stylus covers what the 3D view shows, and is rotated like the view."), [this] {
         const bool held = session_.live().is_connected();
         const device::Specification stylus =
             held ? session_.live().specification() : device::SimulatedStylus().specification();
@@ -164,7 +164,7 @@ void StylusSection::build_workspace() {
   turn_->setToolTip(tr("After clutching, moving the hand to the right moves the stylus to the right in the 3D view."));
   follow_ = new QCheckBox(tr("Slices follow"), this);
   follow_->setObjectName(QStringLiteral("palpateFollow"));
-  follow_->setToolTip(tr("The slices through the proxy are shown as it moves."));
+  follow_->setToolTip(tr("While the proxy moves, the views show the slices through it."));
   follow_->setChecked(true);
   connect(follow_, &QCheckBox::toggled, this, [this](bool on) {
     if (on) go_to_stylus();
@@ -288,7 +288,7 @@ void StylusSection::show_own() {
   if (live.is_connected()) {
     const device::Specification& stylus = live.specification();
     if (stylus.force_axes == 0) {
-      lines << tr("it gives no force");
+      lines << tr("the device gives no force");
     } else {
       if (technical_) {
         lines << tr("the device's own limits: %1 N/m, %2 N (%3 N continuously)")
@@ -317,7 +317,7 @@ QStringList StylusSection::without_program(const device::Specification& stylus) 
   const device::DeviceType* const type = chosen_type();
   if (type == nullptr || type->send_zeros == nullptr) return {};
   const QString watchdog = stylus.watchdog.empty() ? in_qt(type->watchdog) : QString::fromStdString(stylus.watchdog);
-  QStringList lines{tr("its own watchdog: %1").arg(watchdog)};
+  QStringList lines{tr("the device's own watchdog: %1").arg(watchdog)};
   if (!stylus.guardian.empty()) lines << QString::fromStdString(stylus.guardian);
   return lines;
 }
@@ -326,7 +326,8 @@ QStringList StylusSection::without_program(const device::Specification& stylus) 
 QString StylusSection::unguarded() const {
   const device::DeviceType* const type = chosen_type();
   if (type == nullptr || type->send_zeros == nullptr || !device::guardian_program().empty()) return {};
-  return tr("No guardian was found: if the program ends or hangs, only the device takes its force away (%1). Install "
+  return tr("No guardian was found: if the program ends or hangs, only the device itself removes the force (%1). "
+            "Install "
             "palpate-guardian.")
       .arg(in_qt(type->watchdog));
 }

@@ -139,8 +139,9 @@ bool has_answered(const char* message) {
 
 void an_archive_is_entered() {
   open_archive_tab();
-  wait_for("it is said that there is none",
-           [] { return is_told("No archive is entered yet: press Add and ask who runs yours for the five entries."); });
+  wait_for("it is said that there is none", [] {
+    return is_told("No archive is entered yet: press Add, and ask the archive's administrator for the five entries.");
+  });
   bool entered = false;
   in_dialog("palpateArchiveAdd", [&](QDialog& dialog) {
     click("palpateArchiveOk");

@@ -76,7 +76,7 @@ void a_drawn_structure_is_corrected() {
   wait_for("a ball is added", [] { return has_edit("add"); });
   wait_for("which is felt", [&] { return std::abs(felt_mm(at(0)) - 3) < 0.7; });
   wait_for(
-      "and told", [] { return label("palpateCorrectChange").contains("as first drawn"); }, 60);
+      "and told", [] { return label("palpateCorrectChange").contains("first drawn"); }, 60);
   views_rest();
   save_screen("correct-drawn");
   const QString file = qEnvironmentVariable("PALPATE_PICTURES") + QLatin1String("/drawn.dcm");

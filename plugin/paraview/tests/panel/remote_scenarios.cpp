@@ -176,7 +176,8 @@ void remote_different() {
   connect_server();
   open_folder();
   wait_for_word(
-      "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
+      "The copy on this machine differs from the server's scan in values or places: the scan was fetched from the "
+      "server.");
   feel_remotely(true);
   click("palpateRecord");
   wait_for(
@@ -185,7 +186,8 @@ void remote_different() {
   click("palpateConnect");
   state_is_loaded_again();
   wait_for_word(
-      "The copy on this machine is not the server's scan, by its values or places: it was fetched from the server.");
+      "The copy on this machine differs from the server's scan in values or places: the scan was fetched from the "
+      "server.");
   feel_remotely(false);
 }
 

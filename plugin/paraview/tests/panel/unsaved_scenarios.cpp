@@ -112,7 +112,7 @@ void another_scan_is_asked_about() {
       },
       [](QDialog& question) {
         save_screen("unsaved-scan");
-        expect(answer(question, "Cancel") == "Another scan takes the place of this one. Not saved: the edited scene.",
+        expect(answer(question, "Cancel") == "Another scan is about to replace this one. Not saved: the edited scene.",
                "it is said what would be lost");
       });
   wait_ms(500);
