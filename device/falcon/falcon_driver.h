@@ -23,7 +23,7 @@ Specification falcon_specification(const FalconSettings& settings);
 std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
                                            const LinkStylusOptions& options);
 
-/// Starts the serial chip, then the firmware: in run mode if it is loaded, else it uploads it first. Throws
+/// Starts the serial chip, then the firmware in run mode. Uploads the firmware first if it is not loaded. Throws
 /// std::runtime_error.
 void connect_falcon(FalconLink& link, const std::string& firmware_file);
 

@@ -25,7 +25,7 @@ struct HidKind {
 /// The devices of a kind. Never throws; empty if HID does not work.
 std::vector<FoundDevice> find_hid_devices(const HidKind& wanted);
 
-/// The kernel's data on the device at a hidraw path, beside its number: its ids, its socket, its serial number. Empty
+/// The kernel's data on the device at a hidraw path: its ids, its socket, its serial number. Empty
 /// if there is none.
 std::string hid_identity(const std::string& path);
 

@@ -9,7 +9,7 @@
 
 namespace palpate::device {
 
-/// The guardian's reach for its device.
+/// What the guardian can do with its device.
 enum class GuardianReach : std::uint32_t {
   untold,       ///< not known: it has not checked yet
   none,         ///< it finds no device, no rights to it, or no maker's library

@@ -29,7 +29,7 @@ inline bool lies_within(const Stretch& stretch, const Vec3& place, double mm) no
 struct FieldChange {
   std::vector<Stretch> where;
   double touched_mm = 0;  ///< farther than this from all stretches the surface is unchanged
-  double within_mm = 0;   ///< `after` is called so near to a stretch; at least touched_mm
+  double within_mm = 0;   ///< `after` is called up to this distance from a stretch; at least touched_mm
   /// The function whose zero is the new surface; farther than within_mm from all stretches it is `before`. `near`: the
   /// stretches that may be nearer than within_mm.
   std::function<double(const Vec3& at, double before, std::span<const std::uint32_t> near)> after;

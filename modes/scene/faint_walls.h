@@ -20,7 +20,7 @@ struct FaintWall {
   std::size_t within = 0;      ///< index of the tissue
   double low = 0, high = 0;    ///< typical values of its two sides, scan's unit
   Tissue low_side, high_side;  ///< the two parts of the tissue; without names
-  double share = 0;            ///< part of the voxels at boundaries between tissues
+  double share = 0;            ///< voxels at this wall, as a fraction of those at boundaries between tissues
   double noise_gradient = 0;   ///< standard deviation of a component, per mm
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rows with a mathematical truth: a phantom whose boundaries are known exactly.
+/// Rows of the study with a known exact answer: a phantom whose boundaries are known exactly.
 
 #include <cstdint>
 #include <vector>

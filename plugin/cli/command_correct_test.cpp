@@ -188,8 +188,8 @@ TEST(CommandCorrect, IsRefusedInWordsAndWritesNothing) {
   refused(good, "", 2,
           "the edits do not begin with contours of a new structure: name the one that they correct (--structure)");
   refused(good, "--structure " + core.cut + ":9", 1, "{} has no \"9\"; there are: ");
-  refused(good, structure, 1, "has no ending that is known", "outline.stl");
-  refused(good, structure + " --rtstruct", 1, "contours (RTSTRUCT) are written as DICOM alone", "outline.mha");
+  refused(good, structure, 1, "has no known file name extension", "outline.stl");
+  refused(good, structure + " --rtstruct", 1, "contours (RTSTRUCT) are written only as DICOM", "outline.mha");
   // Never over an existing file unasked.
   const fs::path there = core.folder / "there.mha";
   std::ofstream(there) << "mine";

@@ -23,7 +23,7 @@ struct BodyMask {
 /// Whether the mask has one more voxel around the body, to include the slope of the skin.
 enum class Rim { none, one_voxel };
 
-/// `value_at`: HU of a voxel of a scan with this number and spacing (mm) of voxels. Coarse voxels are `coarse_mm` apart
+/// `value_at`: HU of a voxel. `voxels`, `spacing_mm`: the scan's size and spacing. Coarse voxels are `coarse_mm` apart
 /// or a little more. Thin bridges between the body and the table are cut. The largest remaining piece is the body, with
 /// its holes and with all pieces within a centimeter of it. Takes some tenths of a second, on any thread.
 BodyMask body_mask(const std::function<double(int, int, int)>& value_at, const glm::ivec3& voxels,

@@ -20,7 +20,7 @@ class UnsavedGuard : public QObject {
  public:
   UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& window);
 
-  /// ParaView's session ends without a question: by a script, or because of another server. Saves the work, and returns
+  /// Called if ParaView's session ends without a question: by a script or another server. Saves the work, and returns
   /// a message about it; empty: there was nothing to save.
   QString recover();
 

@@ -2283,7 +2283,7 @@ ID %2, Studie vom %3</translation>
         <translation>Für %1 gemacht. Diese Aufnahme ist von anderer Art.</translation>
     </message>
     <message>
-        <source>Restored with the state</source>
+        <source>Restored from the state file</source>
         <translation>Aus der Zustandsdatei wiederhergestellt</translation>
     </message>
     <message>

@@ -55,7 +55,7 @@ class OpenViews {
   /// shows another slice.
   [[nodiscard]] Following follow(Layer layer, Opened opened, SliceShown slice_shown = {});
 
-  /// The views of a scan that is otherwise complete; empty: they are about to close.
+  /// Called when everything else of a scan is ready. Empty: the views are about to close.
   void set(std::vector<ClinicalView> views);
   const std::vector<ClinicalView>& now() const { return views_; }
   /// A view shows another slice.

@@ -138,7 +138,7 @@ void TissuesSection::list_choices() {
 }
 
 void TissuesSection::set_restored() {
-  choice_ = add_choice(tr("Restored with the state"), model_.scene());
+  choice_ = add_choice(tr("Restored from the state file"), model_.scene());
   follow_origin();
 }
 

@@ -25,7 +25,7 @@ class BrushViews {
   BrushViews(const BrushViews&) = delete;
   BrushViews& operator=(const BrushViews&) = delete;
 
-  /// None hides it. On slices it is a circle where the ball cuts them. The volume view, which is slow to draw, shows it
+  /// nullopt hides it. Slices show it as a circle where they cut it. The volume view, which is slow to draw, shows it
   /// in its next picture.
   void show(const std::optional<Brush>& brush);
 

@@ -47,7 +47,7 @@ Widget& find(const char* name) {
 QString label(const char* name);
 /// The number that a label begins with, perhaps after "Volume".
 double number(const char* name);
-/// The number once it is steady, within the tremor of a hand: half a percent for a hundred turns of events.
+/// The number once it changes by half a percent at most (a hand's tremor) during a hundred turns of events.
 double steady_number(const char* name);
 
 /// The number of clicks so far.

@@ -171,7 +171,7 @@ void a_loaded_state_has_no_force() {
       "the panel has the state's scene", [] { return find<QDoubleSpinBox>("palpateStrength0").value() == 0.45; }, 20);
   wait_for(
       "it is said where the scene is from",
-      [] { return label("palpateFelt").contains("Scene: Restored with the state."); }, 20);
+      [] { return label("palpateFelt").contains("Scene: Restored from the state file."); }, 20);
   save_screen("state-loaded");
   expect_ready_to_feel();
 }

@@ -220,7 +220,7 @@ void a_session_is_loaded() {
   save_screen("story-loaded");
   connect_stylus();
   press_once();
-  expect(label("palpateFelt").contains("Scene: Restored with the state."), "the state's scene is felt");
+  expect(label("palpateFelt").contains("Scene: Restored from the state file."), "the state's scene is felt");
 }
 
 /// All that one does is traced; pvpython repeats it.
