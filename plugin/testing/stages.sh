@@ -152,7 +152,8 @@ green=${XDG_CACHE_HOME:-$HOME/.cache}/palpate/green
 mark_of() { printf '%s/%s-%s' "$green" "$(git rev-parse 'HEAD^{tree}')" "$1"; }
 is_green() { [ -z "${CI:-}" ] && [ -z "$(git status --porcelain)" ] && [ -e "$(mark_of "$1")" ]; }
 keep_green() {
-  [ -z "$(git status --porcelain)" ] || return 0
+  # Not with a limit of time: a part of a stage may have been left out.
+  if [ -n "${PALPATE_ENDS:-}" ] || [ -n "$(git status --porcelain)" ]; then return 0; fi
   mkdir -p "$green"
   touch "$(mark_of "$1")"
 }
@@ -212,5 +213,5 @@ run_stages() {
     printf 'incomplete: %s\n' "${incomplete[@]}"
     [ "${PALPATE_ONE_RELEASE:-}" = 1 ] || { say "not all stages were run (PALPATE_ONE_RELEASE=1 accepts that)"; exit 3; }
   fi
-  say "all stages passed"
+  if [ ${#incomplete[@]} -gt 0 ]; then say "what was run passed"; else say "all stages passed"; fi
 }
