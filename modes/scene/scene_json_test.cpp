@@ -9,7 +9,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "io/filter.h"
 #include "io/fresh_folder.h"
+#include "modes/types/mode_type.h"
 #include "solver/analytical.h"
 #include "solver/descent.h"
 #include "solver/exact.h"
@@ -28,6 +30,14 @@ std::string error_of(const std::string& text) {
     return error.what();
   }
   return "accepted";
+}
+
+/// As a message lists them.
+template <typename Types>
+std::string names_of(const Types& types) {
+  std::string names;
+  for (const auto* const type : types) names.append(names.empty() ? "" : ", ").append(type->name);
+  return names;
 }
 
 /// A scene with one surface mode, whose text is given members in place of its strength.
@@ -142,8 +152,7 @@ TEST(SceneJson, a_filter_has_what_its_type_reads) {
     return error_of(R"({"version": 1, "modes": [], "filter": )" + filter + "}");
   };
   EXPECT_EQ(refused(R"({"type": "sharpen"})"),
-            "mine.json: filter.type: there is no \"sharpen\"; there are: none, gaussian, median, bilateral, "
-            "non_local_means");
+            "mine.json: filter.type: there is no \"sharpen\"; there are: none, " + names_of(io::filter_types()));
   EXPECT_THAT(refused(R"({"type": "median", "sigma_mm": 1})"), StartsWith("mine.json: filter.sigma_mm: "));
   EXPECT_EQ(refused(R"({"type": "median", "width": 4})"),
             "mine.json: filter.width: a median of 4 voxels is not offered; give 3 or 5");
@@ -175,9 +184,9 @@ TEST(SceneJson, every_error_names_the_file_and_the_path_of_the_bad_key) {
               StartsWith("mine.json: stiffness: there is no such key here; there are: "));
   EXPECT_THAT(error_of(R"({"version": 1, "modes": [], "stiffness_n_per_m": 0})"),
               StartsWith("mine.json: stiffness_n_per_m: 0 is not a number above 0"));
-  EXPECT_THAT(error_of(R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"),
-              StartsWith("mine.json: modes[0].type: there is no mode \"surfce\"; there are: force, follow, surface, "
-                         "friction, tube, landmark"));
+  EXPECT_THAT(
+      error_of(R"({"version": 1, "modes": [{"type": "surfce", "strength_n": 1}]})"),
+      StartsWith("mine.json: modes[0].type: there is no mode \"surfce\"; there are: " + names_of(mode_types())));
   EXPECT_THAT(
       error_of(with_surface(R"("strength_n": {"nodes": [[0, -2]]})")),
       StartsWith("mine.json: modes[1].strength_n.nodes[0][1]: -2 is negative; a strength is in newtons, 0 or more"));
