@@ -15,7 +15,7 @@ class QTreeWidgetItem;
 
 namespace palpate::plugin {
 
-/// A study, with a placeholder line for its series until they are known.
+/// A study. Below it one line says that its series are being asked for; add_series() replaces that line.
 void add_study(QTreeWidget& tree, const io::ArchivedStudy& study);
 void add_series(QTreeWidgetItem& study, const std::vector<io::ArchivedSeries>& series);
 /// Shows pictures for the lines of these series (by UID).

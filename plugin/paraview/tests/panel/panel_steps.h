@@ -38,6 +38,7 @@ const Scenarios& language_scenarios();
 const Scenarios& layout_scenarios();
 const Scenarios& legible_scenarios();
 const Scenarios& mark_scenarios();
+const Scenarios& measured_scenarios();
 const Scenarios& picture_scenarios();
 const Scenarios& profile_scenarios();
 const Scenarios& recording_scenarios();
