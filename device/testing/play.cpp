@@ -9,11 +9,15 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <stdexcept>
 #include <thread>
 
+#include "device/link/driver_clock.h"
 #include "device/link/realtime.h"
 #include "device/testing/fake_space_mouse.h"
 #include "device/testing/fake_wooden_haptics.h"
@@ -24,12 +28,18 @@ namespace {
 
 constexpr double longest_while_stopped = 0.3;  // s
 constexpr double longest_after_replug = 0.3;   // s from the node to the zero
+constexpr double longest_scenario = 60;        // s; one that works takes 5
 const Vec3 asked_force(0, 1, 0);               // N: what the client asks for
 
 std::string firmware() {
   std::string image(1500, 0);
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<char>(i * 7 + i / 251);
   return image;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// The exit status of a child as in a shell: 128 + n if signal n killed it. -1: there is no such child.
@@ -71,6 +81,31 @@ pid_t start_client(const Scenario& scenario, const std::string& client, const st
 bool wait_for_stop(pid_t pid) {
   siginfo_t info{};
   return waitid(P_PID, static_cast<id_t>(pid), &info, WSTOPPED | WEXITED | WNOWAIT) == 0 && info.si_code == CLD_STOPPED;
+}
+
+/// What each thread of the client and of its guardian waits for, as far as this user may know it.
+void tell_what_hangs() {
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = read_text(process.path() / "comm");
+    if (!name.starts_with("device_cl") && !name.starts_with("palpate-guard")) continue;
+    for (const auto& thread : std::filesystem::directory_iterator(process.path() / "task")) {
+      std::printf("%s, thread %s: %s%s\n", name.c_str(), thread.path().filename().c_str(),
+                  read_text(thread.path() / "stat").c_str(), read_text(thread.path() / "stack").c_str());
+    }
+  }
+}
+
+/// Ends this process, and tells why, where a scenario does not end by itself.
+std::jthread limit_time() {
+  return std::jthread([](const std::stop_token& over) {
+    for (const double start = monotonic_time(); !over.stop_requested(); sleep_seconds(0.05)) {
+      if (monotonic_time() - start < longest_scenario) continue;
+      std::printf("the scenario did not end within %.0f s\n", longest_scenario);
+      tell_what_hangs();
+      std::fflush(stdout);
+      std::_Exit(1);
+    }
+  });
 }
 
 /// Those that this process has; its clients' guardians become its own.
@@ -184,6 +219,7 @@ double Play::zero_after_replug() {
 int Play::run(const std::string& client) {
   // A guardian that outlives its session becomes a child of this process.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const std::jthread limit = limit_time();
   const pid_t pid = start_client(scenario_, client, file_);
   const double zeroed_after = is_replugged() ? zero_after_replug() : 0;
   bool stopped_too_long = false;

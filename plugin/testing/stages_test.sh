@@ -22,6 +22,8 @@ run() {
       stage_format() { counted="looked at"; }
       stage_usb() { counted="plugged in"; }
       stage_tsan() { return 1; }
+      git() { echo 8d0b265f503; }
+      paraview_tests() { echo "asked: $*"; }
       run_stages "$@"' stages "${@:3}" 2>&1) || code=$?
 }
 fail() { printf 'FAILED: %s\n%s (exit %s)\n' "$1" "$said" "$code"; exit 1; }
@@ -44,6 +46,15 @@ ends_with 0; says "9 s  trixie"
 
 run 0 'echo broken; exit 3' format other-release
 ends_with 1; says broken; says_not passed
+
+run 3000 "$passes" paraview # all of the panel's programs, or what there is time for
+ends_with 0; says "asked: -LE ^first$"; says_not "-I"; says "== all stages passed"
+run 1500 "$passes" paraview
+ends_with 0; says "-I 2,,2"; says "incomplete: paraview: one program of 2"; says "== what was run passed"
+run 900 "$passes" paraview
+ends_with 0; says "-I 4,,4"; says "one program of 4"
+run 300 "$passes" paraview
+ends_with 0; says_not "asked"; says "incomplete: paraview: not begun"
 
 run "" "$passes" format tsan usb
 [ "$code" -ne 0 ] || fail "a stage failed"
