@@ -1,5 +1,5 @@
 // Every fault on every device, through the one safety filter and the link: what becomes of the force on the device, and
-// how fast. The rows of signals are in the tests device.usb.*, which need a process to end.
+// how fast. The rows of signals need a process to end: device/testing/guest_main.cpp plays them.
 
 #include "device/testing/fault_table.h"
 

@@ -20,13 +20,13 @@ struct Scenario {
   /// while it pushes, and plugged in again after a second while the session still holds it; replug_close: the same
   /// after the session has closed it.
   std::string name;
-  std::string address;        ///< of a WoodenHaptics arm: its future hidraw path
-  bool newer_puck = false;    ///< a SpaceMouse with translation and rotation in one report
-  int user = -1;              ///< the client's user and group; -1: as this process
-  bool in_plugdev = false;    ///< whether plugdev is its other group
-  double zero_within = 0.4;   ///< s after the client has ended; below the 0.5 s of an arm's own watchdog
-  double unplug_after = 2.0;  ///< s after the client first touches it
-  double replug_after = 1.0;  ///< s after that; for the replug scenarios
+  std::string address;         ///< of a WoodenHaptics arm: its future hidraw path
+  bool newer_puck = false;     ///< a SpaceMouse with translation and rotation in one report
+  int user = -1;               ///< the client's user and group; -1: as this process
+  bool in_plugdev = false;     ///< whether plugdev is its other group
+  double zero_within = 0.020;  ///< s after the client has ended: what the guest's own time allows
+  double unplug_after = 1.4;   ///< s after the client first touches it
+  double replug_after = 1.0;   ///< s after that; for the replug scenarios
   std::function<bool()> is_plugged_in = [] { return true; };  ///< whether the system has a node for it
 };
 

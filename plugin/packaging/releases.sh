@@ -14,7 +14,7 @@ core_packages=(g++ cmake ninja-build pkg-config ccache
   libglm-dev libdcmtk-dev libopenjp2-7-dev libcharls-dev libopencv-core-dev libopencv-imgproc-dev libopencv-photo-dev libeigen3-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libcairo2-dev fonts-dejavu-core libarchive-dev libpugixml-dev libxxhash-dev libpolyclipping-dev zlib1g-dev
   libusb-1.0-0-dev libhidapi-dev libsystemd-dev libboost-dev libssl-dev)
-test_packages=(python3 git locales libgtest-dev libgmock-dev libbenchmark-dev libnlopt-dev libnlopt-cxx-dev umockdev libumockdev-dev dbus-daemon
+test_packages=(python3 git locales libgtest-dev libgmock-dev libbenchmark-dev libnlopt-dev libnlopt-cxx-dev umockdev dbus-daemon
   orthanc dcmtk dicom3tools openssl libopenigtlink-dev openigtlink-examples python3-pydicom python3-nibabel)
 paraview_packages=(paraview paraview-dev python3-paraview libopenmpi-dev libglew-dev libfreetype-dev)
 gui_test_packages=(xvfb xauth libgl1-mesa-dri xdotool imagemagick)

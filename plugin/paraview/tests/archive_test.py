@@ -202,15 +202,16 @@ def outline_sent():
     return in_an_archive(name, act)
 
 
-main({
-    "felt_by_move": felt_from_the_archive,
-    "felt_by_get": lambda: felt_from_the_archive("--get"),
-    "kept_and_emptied": kept_and_emptied,
-    "entered": entered,
-    "entered_with_tls": entered_with_tls,
-    "marks_sent": marks_sent,
-    "marks_not_sent": marks_not_sent,
-    "marks_without_contact": marks_without_contact,
-    "outline_sent": outline_sent,
-    "cancelled": lambda: odd("without-end", "a_fetch_is_cancelled"),
-})
+if __name__ == "__main__":
+    main({
+        "felt_by_move": felt_from_the_archive,
+        "felt_by_get": lambda: felt_from_the_archive("--get"),
+        "kept_and_emptied": kept_and_emptied,
+        "entered": entered,
+        "entered_with_tls": entered_with_tls,
+        "marks_sent": marks_sent,
+        "marks_not_sent": marks_not_sent,
+        "marks_without_contact": marks_without_contact,
+        "outline_sent": outline_sent,
+        "cancelled": lambda: odd("without-end", "a_fetch_is_cancelled"),
+    })

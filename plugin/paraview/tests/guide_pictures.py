@@ -8,7 +8,9 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 
+from archive_test import enter, in_an_archive
 from made_segmentation import is_in_cut_ball, write_segmentation
 from mixed_folder import mixed_folder, two_of_a_patient
 from panel_program import ASKED, ball, run, scratch
@@ -49,6 +51,24 @@ def chosen():
                      PALPATE_DROP=mixed_folder(), PALPATE_OTHER=two_of_a_patient())
 
 
+def opened_before():
+    """The start page with a folder of no user's name."""
+    with tempfile.TemporaryDirectory() as parent:
+        folder = os.path.join(parent, "ct-ball")
+        shutil.copytree(ball(), folder)
+        return (run("folders_are_opened_again", screen="1366x768", PALPATE_DROP=folder) and
+                as_screen("a_recent_folder_is_pressed", {"start-recent": ("start", "785x190+0+62")}, screen="1366x768", first=False,
+                          PALPATE_DROP=folder))
+
+
+def archived():
+    def act(archive):
+        return as_screen("felt_from_the_archive", {"archive-chosen": ("archive", "360x450+790+62")}, screen="1366x768",
+                         prepare=lambda _: enter("clinic", archive.options("--get")))
+
+    return in_an_archive("felt_from_the_archive", act)
+
+
 def marked():
     return as_screen("marks_are_where_the_stylus_was", {"marks": ("marks", "1152x762+0+0")}, ball(), screen="1366x768")
 
@@ -60,6 +80,8 @@ scenarios = {
     "guide_fault": lambda: run("guide_fault", head, PALPATE_GUIDE=PICTURES),
     "an_outline_is_corrected": lambda: run("an_outline_is_corrected", spoilt(), screen="1280x860", PALPATE_GUIDE=PICTURES),
     "cards": chosen,
+    "start": opened_before,
+    "archive": archived,
     "marks": marked,
 }
 for scenario in os.environ.get("PALPATE_PICTURES_ALONE", " ".join(scenarios)).split():

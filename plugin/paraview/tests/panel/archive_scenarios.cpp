@@ -76,6 +76,7 @@ void felt_from_the_archive() {
   expect(series.text(0).endsWith("64 images"), "its images are counted: " + series.text(0).toStdString());
   expect(!find<QPushButton>("palpateFetch").isEnabled(), "nothing is chosen yet");
   choose(series);
+  wait_ms(300);  // until it is drawn: the guide shows it
   save_screen("archive-chosen");
   click("palpateFetch");
   scan_is_shown();
