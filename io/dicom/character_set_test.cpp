@@ -105,7 +105,9 @@ TEST(CharacterSets, HalfWidthKatakanaAreInTheirOrder) {
 TEST(CharacterSets, ThatDoNotFitTheirTextAreLeft) {
   EXPECT_EQ(utf8_of("\x1B$B;", "\\ISO 2022 IR 87"), "\x1B$B;") << "an escape that ends early";
   EXPECT_EQ(utf8_of("\xE0", "\\ISO 2022 IR 87"), "\xC3\xA0") << "no katakana";
-  EXPECT_EQ(utf8_of("plain ^ text=~", "ISO_IR 100"), "plain ^ text=~");
+  for (const char* set : {"ISO_IR 100", "ISO_IR 13", "ISO 2022 IR 13\\ISO 2022 IR 87", "GB18030"}) {
+    EXPECT_EQ(utf8_of("plain ^ text=~", set), "plain ^ text=~") << set;
+  }
 }
 
 }  // namespace

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "io/fields/gradient.h"
+
 namespace palpate::io::internal {
 namespace {
 
 using ::testing::Contains;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 using Edit = std::function<void(int, FileHeader&)>;
 
@@ -104,7 +104,38 @@ TEST(Grouping, FramesThatLieApartAreTold) {
   EXPECT_THAT(words(0.3, 0.4), apart("0.40 mm"));
   EXPECT_THAT(words(-0.4, -0.3), apart("0.40 mm"));
   EXPECT_THAT(words(0.5, 0.2), apart("0.50 mm"));
-  EXPECT_THAT(words(0, 0), Not(Contains(HasSubstr("apart"))));
+  EXPECT_THAT(words(0, 0), IsEmpty()) << "as many slices, too, are at every time";
+}
+
+// Of images that are no volume, the largest stack is the series' one line in the list.
+TEST(Grouping, OfStacksWithoutAVolumeTheLargestIsListed) {
+  for (const int alone : {0, 7}) {
+    const std::vector<Series> series = series_of(slices(1, [=](int n, FileHeader& header) {
+      header.image_type = "ORIGINAL\\PRIMARY\\LOCALIZER";
+      if (n == alone) header.planes[0].placement->direction_j = {0, 0, 1};
+    }));
+    ASSERT_EQ(series.size(), 1U);
+    EXPECT_FALSE(series[0].usable);
+    EXPECT_EQ(series[0].geometry.dimensions.z, 7);
+    EXPECT_EQ(series[0].files.size(), 8U);
+  }
+}
+
+// The next slice has little weight in a gradient from two of its scales on.
+TEST(Grouping, SlicesThatAGradientDoesNotSpanAreTold) {
+  std::size_t spanned = 0;
+  constexpr std::size_t tries = 40;
+  for (std::size_t n = 0; n < tries; ++n) {
+    const double spacing = 0.05 * std::pow(1.1, static_cast<double>(n));
+    const std::vector<Series> series = series_of(slices(1, [=](int, FileHeader& header) {
+      header.planes[0].placement->spacing_i = header.planes[0].placement->spacing_j = spacing;
+    }));
+    const bool told = !series.at(0).warnings.empty();
+    EXPECT_EQ(told, 4 > 2 * largest_gradient_scale_mm(series[0].geometry)) << spacing;
+    spanned += told ? 0U : 1U;
+  }
+  EXPECT_GT(spanned, 3U);
+  EXPECT_LT(spanned, tries - 3);
 }
 
 // MR leaves a little between its slices; half of their thickness is more than that.

@@ -91,6 +91,27 @@ TEST(OddFiles, ValuesOfOddLengthAreRead) {
   EXPECT_EQ(load(series).value_at(3, 2, 1), 132);
 }
 
+// The standard orders elements by their tags. A few that lie behind a higher one are found all the same.
+TEST(OddFiles, ElementsOutOfTheirOrderAreRead) {
+  const TestFolder folder;
+  write_stack(folder.path(), 2);
+  for (const int k : {0, 1}) {
+    const fs::path path = folder / (numbered("s", k) + ".dcm");
+    std::string bytes = bytes_of(path);
+    const std::string modality("\x08\0\x60\0CS\x02\0CT", 10);
+    const std::size_t at = bytes.find(modality);
+    ASSERT_NE(at, std::string::npos);
+    bytes.erase(at, modality.size());
+    const std::size_t rows = bytes.find(std::string("\x28\0\x10\0US", 6));
+    ASSERT_NE(rows, std::string::npos);
+    bytes.insert(rows, modality);
+    write_bytes(path, bytes);
+  }
+  const Series series = only_series_in(folder);
+  EXPECT_EQ(series.modality, "CT");
+  EXPECT_EQ(load(series).value_at(3, 2, 1), 132);
+}
+
 // PS3.5 A.4: a sequence delimiter ends the fragments. Some writers leave it out.
 TEST(OddFiles, CompressedPixelsWithoutTheirEndMarkAreRead) {
   register_encoders();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "io/load.h"
 #include "io/testing/test_image.h"
@@ -183,6 +184,26 @@ TEST(OddSeries, NumbersThatAlternateDoNotDivideFrames) {
   EXPECT_THAT(series.frame_names, ElementsAre("echo time 5 ms", "echo time 10 ms"));
   EXPECT_EQ(series.geometry.dimensions.z, 6);
   EXPECT_THAT(series.geometry.gaps, IsEmpty());
+}
+
+TEST(OddSeries, TwoLabelsDivideTogether) {
+  const TestFolder folder;
+  for (int n = 0; n < 12; ++n) {
+    TestImage image;
+    image.z = 2.0 * (n / 4);
+    image.value = [n](int, int) { return n; };
+    image.edit = [&](DcmDataset& d) {
+      put(d, DCM_EchoTime, n % 2 == 0 ? "5" : "10");
+      put(d, DCM_TemporalPositionIdentifier, n / 2 % 2 == 0 ? "1" : "2");
+    };
+    write(image, folder / std::to_string(n));
+  }
+  const Series series = only_series_in(folder);
+  ASSERT_EQ(series.frames_per_position, 4);
+  EXPECT_THAT(series.frame_names, ::testing::Each(HasSubstr("echo time")));
+  std::set<double> first;
+  for (int frame = 0; frame < 4; ++frame) first.insert(load_frame(series, frame).value_at(0, 0, 0));
+  EXPECT_THAT(first, ElementsAre(0, 1, 2, 3));
 }
 
 // Magnitude and phase, trigger times that grow from slice to slice, no temporal position, numbers that repeat.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <tuple>
+#include <utility>
 
 #include "io/load.h"
 #include "io/testing/test_image.h"
@@ -90,24 +92,43 @@ TEST(OddValues, EnhancedFramesEachHaveTheirRescale) {
 
 // --- Pixels ----------------------------------------------------------------------------------------------------------
 
+// The least and the most that are far from what 12 bits hold, and the next to it.
 TEST(OddValues, PaddingOutsideTheStoredBitsIsNoTissue) {
-  for (const bool is_signed : {true, false}) {
+  for (const auto& [is_signed, padding] : {std::pair{true, -32768}, {true, -2049}, {false, 0x8000}, {false, 0x1000}}) {
     const TestFolder folder;
-    write_stack(folder.path(), 2, [&](int, TestImage& image) {
-      image.value = [](int i, int) { return i == 0 ? 0x8000 : 0xA000 | i; };  // above bit 11 there is an overlay
-      image.edit = [&](DcmDataset& d) {
+    write_stack(folder.path(), 2, [&, is_signed = is_signed, padding = padding](int, TestImage& image) {
+      image.value = [=](int i, int) { return i == 0 ? padding & 0xFFFF : 0xA000 | i; };  // above bit 11: an overlay
+      image.edit = [=](DcmDataset& d) {
         put(d, DCM_BitsStored, 12);
         put(d, DCM_HighBit, 11);
         put(d, DCM_PixelRepresentation, is_signed ? 1 : 0);
-        is_signed ? succeed(d.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), -32768))
-                  : put(d, DCM_PixelPaddingValue, 0x8000);
+        is_signed ? succeed(d.putAndInsertSint16(DcmTag(DCM_PixelPaddingValue, EVR_SS), static_cast<Sint16>(padding)))
+                  : put(d, DCM_PixelPaddingValue, padding);
       };
     });
     const Volume volume = load(find_in(folder).series.at(0));
     for (int i = 0; i < 6; ++i) {
-      EXPECT_EQ(volume.is_padding(i, 1, 1), i == 0);
-      EXPECT_EQ(volume.value_at(i, 1, 1), i > 0 ? i : is_signed ? -32768 : 32768);
+      EXPECT_EQ(volume.is_padding(i, 1, 1), i == 0) << padding;
+      EXPECT_EQ(volume.value_at(i, 1, 1), i > 0 ? i : padding);
     }
+  }
+}
+
+TEST(OddValues, WindowThatIsNoIntervalIsNone) {
+  for (const auto& [level, width, is_one] : {std::tuple{"40", "400", true},
+                                             {"40", "0", false},
+                                             {"40", "-1", false},
+                                             {"40", "1e999", false},
+                                             {"1e999", "400", false},
+                                             {"40", "", false}}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 2, [&, level = level, width = width](int, TestImage& image) {
+      image.edit = [=](DcmDataset& d) {
+        put(d, DCM_WindowCenter, std::string(level));
+        put(d, DCM_WindowWidth, std::string(width));
+      };
+    });
+    EXPECT_EQ(only_series_in(folder).window.has_value(), is_one) << level << " " << width;
   }
 }
 

@@ -277,18 +277,20 @@ TEST(Grid, OfUihIsTakenApart) {
   }
 }
 
-TEST(Grid, WithoutItsSequenceIsRefused) {
-  const TestFolder folder;
-  TestImage image = grid();
-  const auto whole = image.edit;
-  image.edit = [&](DcmDataset& d) {
-    whole(d);
-    d.findAndDeleteElement(DcmTagKey(0x0065, 0x1051));
-  };
-  write(image, folder / "a.dcm");
-  const Catalogue found = find_in(folder);
-  ASSERT_THAT(found.skipped, SizeIs(1));
-  EXPECT_EQ(found.skipped[0].reason, "UIH grid without the private sequence that says where its slices lie");
+TEST(Grid, WithoutItsSequenceOrItsCountIsRefused) {
+  for (const Uint16 element : {Uint16{0x1051}, Uint16{0x1050}}) {
+    const TestFolder folder;
+    TestImage image = grid();
+    const auto whole = image.edit;
+    image.edit = [&](DcmDataset& d) {
+      whole(d);
+      d.findAndDeleteElement(DcmTagKey(0x0065, element));
+    };
+    write(image, folder / "a.dcm");
+    const Catalogue found = find_in(folder);
+    ASSERT_THAT(found.skipped, SizeIs(1)) << element;
+    EXPECT_EQ(found.skipped[0].reason, "UIH grid without the private sequence that says where its slices lie");
+  }
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ TEST(Velocity, NamedByTheSequenceIsJoined) {
   const Catalogue found = find_in(folder);
   EXPECT_THAT(found.series, SizeIs(3));
   ASSERT_THAT(found.velocity_fields, SizeIs(1));
+  EXPECT_THAT(found.velocity_fields[0].uid, ::testing::MatchesRegex("1.2.3.[1-3][+]1.2.3.[1-3][+]1.2.3.[1-3]"));
   // What cannot be known from public documents is said: once of the field, and of each series.
   EXPECT_THAT(found.velocity_fields[0].warnings, ::testing::Contains(::testing::HasSubstr("may be reversed")).Times(1));
   for (const Series& series : found.series) {
