@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -202,6 +203,28 @@ TEST(MultiFrameLaws, CopiesAreToldFromOnesWithOtherPixelsInWhateverFrameThese) {
     for (const std::size_t pixel : {f * of_frame, f * of_frame + of_frame / 2, (f + 1) * of_frame - 1}) {
       EXPECT_EQ(reason_where(pixel), "a copy of a.dcm: the same SOP instance, but with other pixels") << pixel;
     }
+  }
+}
+
+// The thickness that a file states for all of its frames holds; where there is none it is that of the first frame.
+TEST(MultiFrame, ThicknessIsTheFilesOrElseItsFirstFrames) {
+  for (const auto& [of_file, of_first, expected] : {std::tuple{3, 5, 3}, {3, 0, 3}, {0, 5, 5}, {0, 0, 0}}) {
+    const TestFolder folder;
+    TestImage image;
+    image.edit = [&, of_file = of_file, of_first = of_first](DcmDataset& d) {
+      of_file > 0 ? put(d, DCM_SliceThickness, std::to_string(of_file))
+                  : succeed(d.findAndDeleteElement(DCM_SliceThickness));
+      make_multi_frame(d, {0, 4, 8}, [&](std::size_t f, DcmItem& frame) {
+        if (of_first == 0) return;
+        const double thickness = of_first + static_cast<double>(f);
+        DcmItem& measures = group(frame, DCM_PixelMeasuresSequence);
+        succeed(measures.putAndInsertString(DCM_SliceThickness, std::to_string(thickness).c_str()));
+        succeed(measures.putAndInsertString(DCM_PixelSpacing, "1\\1"));
+      });
+      put_pixels(d, pixels_of(3));
+    };
+    write(image, folder / "enhanced");
+    EXPECT_EQ(only_series_in(folder).details.thickness_mm, expected) << of_file << " " << of_first;
   }
 }
 

@@ -73,6 +73,31 @@ TEST(TornSeries, PatientsOfDifferentIdsOrNamesAreNeverMixed) {
 
 constexpr int bold_slices = 20, bold_times = 5;
 
+// What one time alone has is missing in no other.
+TEST(TornSeries, ASliceOfOneTimeAloneIsMissedInNoOther) {
+  const TestFolder folder;
+  for (int time = 0; time < bold_times; ++time) {
+    for (int half = 0; half < 2 * bold_slices; ++half) {
+      if (half % 2 == 1 && (time != 1 || half != 7)) continue;
+      TestImage image;
+      image.z = 2.0 * half;
+      image.edit = [=](DcmDataset& d) {
+        put(d, DCM_Modality, "MR");
+        put(d, DCM_SliceThickness, std::string("4"));
+        put(d, DCM_TemporalPositionIdentifier, std::to_string(time + 1));
+      };
+      write(image, folder / (std::to_string(time) + "_" + std::to_string(half)));
+    }
+  }
+  const Series series = only_series_in(folder);
+  ASSERT_EQ(series.frames_per_position, bold_times);
+  for (const int time : {0, 2, 3, 4}) {
+    const Volume volume = load_frame(series, time);
+    EXPECT_EQ(volume.geometry.dimensions.z, bold_slices) << time;
+    EXPECT_TRUE(volume.geometry.gaps.empty()) << time;
+  }
+}
+
 // What one time lacks and the others have is missing there: nothing is felt between its neighbors, as in a stack that
 // lacks slices.
 TEST(TornSeries, ATimeThatLacksSlicesIsNotFeltWhereTheyAre) {
