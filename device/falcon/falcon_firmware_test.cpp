@@ -94,6 +94,10 @@ TEST(FalconDriver, SaysWhatIsMissing) {
   expect_refusal(wrong_image, "does not run what was uploaded");
 
   settings.firmware_file = write_image(some_image());
+  Bench odd(options, settings);
+  odd.fake.falcon.faults.odd_start = true;
+  expect_refusal(odd, "does not answer the start");
+
   Bench silent(options, settings);
   silent.fake.falcon.faults.silent = true;
   const double begun = silent.fake.time;

@@ -78,14 +78,14 @@ TEST(Energy, ASceneMayPushTheHandSlowly) {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-/// Hand and force swing along y, `lag` radians apart, for a second at 10 kHz. Returns the mean of the energy counted in
-/// the last half of it.
-double counted_j(double hz, double speed_m_per_s, double force_n, double lag, EnergyState& state) {
+/// Hand and force swing along y, `lag` radians apart, for a second at 10 kHz from `begin_s` on. Returns the mean of the
+/// energy counted in the last half of it.
+double counted_j(double hz, double speed_m_per_s, double force_n, double lag, EnergyState& state, double begin_s = 0) {
   constexpr double tick_s = 1e-4;
   double sum = 0;
   for (int n = 0; n < 10000; ++n) {
     const double time = n * tick_s, phase = two_pi * hz * time;
-    const Reading reading{time, {0, speed_m_per_s / (two_pi * hz) * std::sin(phase), 0}, 0, true};
+    const Reading reading{begin_s + time, {0, speed_m_per_s / (two_pi * hz) * std::sin(phase), 0}, 0, true};
     damp_ringing({}, reading, {0, force_n * std::cos(phase - lag), 0}, state);
     if (n >= 5000) sum += state.generated / 5000;
   }
@@ -103,6 +103,16 @@ TEST(Energy, CountsThePowerInTheFastBand) {
       const double wanted_j = 0.5 * 0.2 * 0.6 * share * limits.memory;
       EXPECT_NEAR(counted_j(hz, 0.2, 0.6, lag, state) / wanted_j, std::cos(lag), 0.1) << hz << " Hz, " << lag;
     }
+  }
+}
+
+/// A clock may count from when the machine was started.
+TEST(Energy, IsTheSameWheneverItBegins) {
+  EnergyState at_zero;
+  const double wanted_j = counted_j(60, 0.2, 0.6, 0, at_zero);
+  for (const double begin_s : {0.2, 3600.0, 1e6}) {
+    EnergyState state;
+    EXPECT_NEAR(counted_j(60, 0.2, 0.6, 0, state, begin_s), wanted_j, 1e-3 * wanted_j) << begin_s;
   }
 }
 

@@ -108,6 +108,7 @@ void FakeFalcon::boot_byte(std::uint8_t byte, double now) {
   } else if (baud_ == baud_140k && !dtr_) {
     if (!loading_) {
       loading_ = byte == 'A';
+      if (faults.odd_start) byte = 'B';
       received_.clear();
       ++uploads_;
     } else {

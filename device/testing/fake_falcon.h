@@ -34,6 +34,7 @@ struct FakeFalconFaults {
   int drop_every = 0;             ///< every n-th reply is lost
   bool impossible_pose = false;   ///< encoders that no Falcon can have
   bool home_lost = false;         ///< as after switching it off and on
+  bool odd_start = false;         ///< answers the start of an upload with another letter
   int corrupt_echoes = 0;         ///< this many of the upload's echoes have a wrong bit
 };
 

@@ -51,6 +51,8 @@ hid_device_info* hid_enumerate(unsigned short vendor, unsigned short product) {
   ++hid->lists;
   hid_device_info* first = nullptr;
   for (auto node = hid->nodes.rbegin(); node != hid->nodes.rend(); ++node) {
+    // As hidapi's header says, a number that is not zero is asked for.
+    if ((vendor != 0 && vendor != node->vendor) || (product != 0 && product != node->product)) continue;
     auto* const info = new hid_device_info{};
     info->path = node->path.data();
     info->vendor_id = node->vendor;

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "device/testing/touch_fixture.h"
 
 namespace palpate::device {
@@ -90,6 +92,17 @@ TEST_F(TouchCalibration, ItsEncodersAreResetOnlyWhenTheyMay) {
   EXPECT_EQ(hd->running, 0) << "before its servo loop runs; the stylus of this line is gone";
   unthreaded()->open();
   EXPECT_EQ(hd->updates, 1) << "it has its zero";
+}
+
+TEST_F(TouchCalibration, AResetThatFailsIsSaid) {
+  hd->styles = 1;
+  hd->calibration = 0x5002;
+  hd->error = 0x303;
+  std::strcpy(hd->failing_call, "hdUpdateCalibration");
+  expect_refusal([] { unthreaded({.may_reset_encoders = true})->open(); },
+                 "it does not tell what it can do: a fault of the fake");
+  EXPECT_EQ(hd->disabled, 1);
+  EXPECT_EQ(hd->running, 0);
 }
 
 }  // namespace
