@@ -181,6 +181,7 @@ Association::~Association() {
 
 void Association::fail(const OFCondition& condition) {
   broken_ = true;
+  if (watch_->cancelled()) throw Cancelled();
   throw ArchiveError(failure_words(archive_, condition, watch_->ended()));
 }
 

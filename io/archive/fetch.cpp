@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 
 #include "io/archive/association.h"
 #include "io/archive/find.h"
@@ -43,28 +44,34 @@ std::string words_of(const Wanted& wanted) {
   throw ArchiveError(say("archive-did-not-send", archive.name, words_of(wanted), why));
 }
 
-/// Reports the progress to the watcher, not more often than a screen needs.
+/// Reports the progress to the watcher, not more often than a screen needs. Both the thread that fetches and the
+/// connection's watch ask it.
 class Teller {
  public:
   Teller(const FetchWatcher& watcher, const Inbox& inbox, int expected)
       : watcher_(watcher), inbox_(inbox), expected_(expected) {}
   bool operator()() {
+    const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ > std::chrono::milliseconds(50)) {
       last_ = now;
-      tell();
+      tell_watcher();
     }
     return going_;
   }
   bool tell() {
-    going_ = going_ && (!watcher_ || watcher_({inbox_.files(), inbox_.bytes(), expected_}));
+    const std::lock_guard lock(mutex_);
+    tell_watcher();
     return going_;
   }
 
  private:
+  void tell_watcher() { going_ = going_ && (!watcher_ || watcher_({inbox_.files(), inbox_.bytes(), expected_})); }
+
   const FetchWatcher& watcher_;
   const Inbox& inbox_;
   int expected_;
+  std::mutex mutex_;
   bool going_ = true;
   std::chrono::steady_clock::time_point last_{};
 };
@@ -150,6 +157,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
   DcmDataset keys = keys_of(wanted);
   send_request(association, model, DIMSE_C_GET_RQ, ask, ask.message.msg.CGetRQ, keys);
   const KeepGoing keep_going = [&] { return teller(); };
+  const Watch::Asking asking(association.watch(), keep_going);
   try {
     while (true) {
       Command command = association.receive(keep_going);
@@ -163,6 +171,7 @@ Ended get(const Archive& archive, const Wanted& wanted, Inbox& inbox, Teller& te
         response.DimseStatus =
             inbox.store(*association.get(), association.watch(), archive.silence_s, command, keep_going, broken);
         if (broken.bad()) {
+          if (association.watch().cancelled()) throw Cancelled();
           refuse(archive, wanted, say("connection-broke-after-images", inbox.files()));
         }
         response.MessageIDBeingRespondedTo = stored.MessageID;
@@ -218,11 +227,16 @@ void judge(const Archive& archive, const Wanted& wanted, const Ended& ended, std
   }
 }
 
-/// A series may grow while it is fetched.
+/// A series may grow while it is fetched. What came is kept where the archive does not answer this.
 void warn_of_growth(const Archive& archive, const Wanted& wanted, std::size_t came, const KeepGoing& keep_going,
                     std::vector<Text>& warnings) {
   const std::string& uid = wanted.series_uid.empty() ? wanted.study_uid : wanted.series_uid;
-  const int now = find_uid(archive, uid, keep_going).images;
+  int now = -1;
+  try {
+    now = find_uid(archive, uid, keep_going).images;
+  } catch (const ArchiveError&) {
+    return;
+  }
   if (now > static_cast<int>(came)) {
     warnings.push_back(say("archive-now-holds-images", archive.name, now, words_of(wanted), came));
   }
@@ -245,13 +259,13 @@ Fetched fetch(const Archive& archive, const std::vector<std::string>& uids, cons
   Fetched result;
   Teller teller(watcher, inbox, expected);
   for (const Wanted& wanted : all) {
-    const std::size_t before = inbox.files(), unasked_before = inbox.unasked();
+    const std::size_t unasked_before = inbox.unasked();
     std::string turned_away;
     inbox.expect(wanted);
     const Ended ended =
         archive.uses_get ? get(archive, wanted, inbox, teller) : move(archive, wanted, inbox, teller, turned_away);
     if (!teller.tell()) throw Cancelled();
-    const std::size_t came = inbox.files() - before;
+    const std::size_t came = inbox.came();
     judge(archive, wanted, ended, came, inbox.unasked() - unasked_before, turned_away, result);
     if (ended.failed == 0) warn_of_growth(archive, wanted, came, keep_going, result.warnings);
   }

@@ -96,6 +96,25 @@ TEST_F(OrthancTest, FetchesSeveralSeriesAndTellsOfAllOfThem) {
   }
 }
 
+/// A study and a series of it, in either order, and one twice: each image is fetched once.
+TEST_F(OrthancTest, FetchesWhatIsNamedTwiceOnce) {
+  const std::string study = instances(made_series() / ct).begin()->second.study;
+  int number = 0;
+  for (const bool uses_get : {false, true}) {
+    Archive way = archive();
+    way.uses_get = uses_get;
+    for (const auto& uids :
+         std::vector<std::vector<std::string>>{{study, uid_of(ct)}, {uid_of(ct), study}, {uid_of(ct), uid_of(ct)}}) {
+      const std::string name = "twice-" + std::to_string(++number);
+      const Fetched fetched = fetch(way, uids, folder(name));
+      EXPECT_EQ(fetched.files, 4U);
+      EXPECT_TRUE(fetched.complete);
+      EXPECT_TRUE(fetched.warnings.empty());
+      expect_same(ct, folder(name));
+    }
+  }
+}
+
 TEST_F(OrthancTest, FetchesCompressedImagesAsTheyAre) {
   for (const bool uses_get : {false, true}) {
     Archive way = archive();

@@ -69,6 +69,8 @@ Inbox::~Inbox() {
 void Inbox::expect(const Wanted& wanted) {
   const std::lock_guard lock(mutex_);
   wanted_ = wanted;
+  instances_of_wanted_.clear();
+  came_.store(0, std::memory_order_relaxed);
 }
 
 bool Inbox::is_wanted(const Header& header) {
@@ -140,6 +142,8 @@ std::uint16_t Inbox::store(T_ASC_Association& association, Watch& watch, int sil
     unasked_.fetch_add(1, std::memory_order_relaxed);
     return not_what_was_asked;
   }
+  instances_of_wanted_.insert(request.AffectedSOPInstanceUID);
+  came_.store(instances_of_wanted_.size(), std::memory_order_relaxed);
   if (!instances_.insert(request.AffectedSOPInstanceUID).second) return STATUS_Success;  // sent again
   keep(part.path(), names);
   files_.fetch_add(1, std::memory_order_relaxed);

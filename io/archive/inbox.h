@@ -34,6 +34,9 @@ class Inbox {
   std::uint16_t store(T_ASC_Association& association, Watch& watch, int silence_s, const Command& command,
                       const KeepGoing& keep_going, OFCondition& broken);
 
+  /// The number of the wanted study's or series' images that came since the last expect(): also those that had come
+  /// before, for another.
+  std::size_t came() const noexcept { return came_.load(std::memory_order_relaxed); }
   std::size_t files() const noexcept { return files_.load(std::memory_order_relaxed); }
   std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
   /// The bytes of all datasets, including the one being received and those not kept.
@@ -63,9 +66,9 @@ class Inbox {
   std::mutex mutex_;
   Wanted wanted_;
   std::map<std::string, Series> series_;
-  std::set<std::string> instances_;
+  std::set<std::string> instances_, instances_of_wanted_;
   std::size_t number_ = 0;
-  std::atomic<std::size_t> files_{0}, unasked_{0};
+  std::atomic<std::size_t> files_{0}, came_{0}, unasked_{0};
   std::atomic<std::uint64_t> bytes_{0}, received_bytes_{0};
 };
 

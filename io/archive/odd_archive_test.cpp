@@ -224,6 +224,17 @@ TEST(OddArchive, ThatGrowsIsNoticed) {
                    "archive {} now holds {} images of {}, and {} came: it may still be growing; fetch it again"));
 }
 
+/// Whether a series has grown is asked at the end. All has come by then, whatever is answered.
+TEST(OddArchive, ThatDoesNotAnswerAfterwardsTakesNothingBack) {
+  for (const char* behavior : {"busy-afterwards", "forgets-afterwards"}) {
+    OddArchive odd(behavior);
+    const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+    EXPECT_EQ(fetched.files, 2U) << behavior;
+    EXPECT_TRUE(fetched.complete);
+    EXPECT_TRUE(fetched.warnings.empty());
+  }
+}
+
 TEST(OddArchive, ThatIsOutOfResourcesIsQuoted) {
   EXPECT_TRUE(says(OddArchive("out-of-resources").refused_fetch(), "archive {} did not send {}: {}(status A702)"));
 }
@@ -263,6 +274,22 @@ TEST(OddArchive, ACanceledFetchEndsSoon) {
                Cancelled);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
   EXPECT_EQ(odd.entries(), 0U);
+}
+
+/// Also where it waits for the rest of a message part.
+TEST(OddArchive, ACanceledFetchEndsSoonInTheMidstOfAPart) {
+  for (const bool uses_get : {true, false}) {
+    OddArchive odd(uses_get ? "drips" : "drips-at-move");
+    odd.archive().uses_get = uses_get;
+    odd.archive().silence_s = 60;
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_THROW(
+        fetch(odd.archive(), {"1.2.3"}, odd.folder(), {},
+              [&](const FetchProgress&) { return std::chrono::steady_clock::now() - begin < std::chrono::seconds(1); }),
+        Cancelled);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << uses_get;
+    EXPECT_EQ(odd.entries(), 0U);
+  }
 }
 
 /// Also where the archive has called back and says nothing.

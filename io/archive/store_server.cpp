@@ -104,8 +104,22 @@ StoreServer::StoreServer(const Archive& archive, Inbox& inbox)
 
 StoreServer::~StoreServer() {
   stopping_.store(true, std::memory_order_relaxed);
+  {
+    const std::lock_guard lock(mutex_);
+    if (watch_ != nullptr) watch_->end();  // an archive may be silent in the middle of an image
+  }
   thread_.join();
   close(listening_);
+}
+
+StoreServer::Active::Active(StoreServer& server, Watch& watch) : server_(server) {
+  const std::lock_guard lock(server_.mutex_);
+  server_.watch_ = &watch;
+}
+
+StoreServer::Active::~Active() {
+  const std::lock_guard lock(server_.mutex_);
+  server_.watch_ = nullptr;
 }
 
 void StoreServer::rethrow() {
@@ -148,6 +162,7 @@ void StoreServer::serve(int socket) {
   accept_contexts(*net.association);
   if (ASC_acknowledgeAssociation(net.association).bad()) return;
   Watch watch(socket, archive_.silence_s);
+  const Active active(*this, watch);
   try {
     converse(*net.association, watch);
   } catch (...) {

@@ -11,6 +11,7 @@
 
 #include "io/archive/archive.h"
 #include "io/archive/inbox.h"
+#include "io/archive/transport.h"
 
 namespace palpate::io {
 
@@ -29,6 +30,17 @@ class StoreServer {
   std::string turned_away();
 
  private:
+  /// While it exists, the server's end ends this association.
+  class Active {
+   public:
+    Active(StoreServer& server, Watch& watch);
+    Active(const Active&) = delete;
+    Active& operator=(const Active&) = delete;
+    ~Active();
+
+   private:
+    StoreServer& server_;
+  };
   void run();
   void serve(int socket);
   void converse(T_ASC_Association& association, Watch& watch);
@@ -41,6 +53,7 @@ class StoreServer {
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::string turned_away_;
+  Watch* watch_ = nullptr;  // of the active association
   std::thread thread_;
 };
 

@@ -8,6 +8,7 @@
 #include <openssl/x509v3.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "io/messages.h"
@@ -136,14 +137,30 @@ Watch::Watch(int socket, int silence_s) : socket_(socket), silence_(silence_s) {
   thread_ = std::jthread([this](const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-      const auto until = last_.load(std::memory_order_relaxed) + silence_;
-      if (std::chrono::steady_clock::now() >= until) {
+      const auto now = std::chrono::steady_clock::now(), until = last_.load(std::memory_order_relaxed) + silence_;
+      cancelled_.store(!goes_on(), std::memory_order_relaxed);
+      if (now >= until || cancelled()) {
         end();
         return;
       }
-      wake_.wait_until(lock, stop, until, [] { return false; });
+      const auto next = keep_going_ ? std::min(until, now + std::chrono::seconds(1)) : until;
+      wake_.wait_until(lock, stop, next, [this, asks = bool(keep_going_)] { return asks != bool(keep_going_); });
     }
   });
+}
+
+void Watch::ask(KeepGoing keep_going) {
+  const std::lock_guard lock(mutex_);
+  keep_going_ = std::move(keep_going);
+  wake_.notify_all();
+}
+
+bool Watch::goes_on() noexcept {
+  try {
+    return !keep_going_ || keep_going_();
+  } catch (...) {
+    return false;  // whoever asks next hears of it
+  }
 }
 
 Watch::~Watch() = default;  // the thread first: it is the last member

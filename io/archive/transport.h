@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "io/archive/archive.h"
 
@@ -46,12 +47,31 @@ class Watch {
   bool ended() const noexcept { return ended_.load(std::memory_order_relaxed); }
   /// Ends the connection at once.
   void end() noexcept;
+  /// Whether it was ended because nobody wanted to go on.
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// While it exists, the watch asks once a second whether to go on, also while a message part is being waited for. The
+  /// question is asked on the watch's thread.
+  class Asking {
+   public:
+    Asking(Watch& watch, KeepGoing keep_going) : watch_(watch) { watch_.ask(std::move(keep_going)); }
+    Asking(const Asking&) = delete;
+    Asking& operator=(const Asking&) = delete;
+    ~Asking() { watch_.ask({}); }
+
+   private:
+    Watch& watch_;
+  };
 
  private:
+  void ask(KeepGoing keep_going);
+  bool goes_on() noexcept;
+
   int socket_;
   std::chrono::seconds silence_;
   std::atomic<std::chrono::steady_clock::time_point> last_{std::chrono::steady_clock::now()};
-  std::atomic<bool> ended_{false};
+  std::atomic<bool> ended_{false}, cancelled_{false};
+  KeepGoing keep_going_;
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::jthread thread_;

@@ -147,6 +147,8 @@ void send_slowly(int port, const std::string& study) {
   close(socket);
 }
 
+bool has_sent = false;  // all that was asked for
+
 class Serving {
  public:
   Serving(int socket, std::string behavior, int port)
@@ -162,7 +164,9 @@ class Serving {
     if (behavior_ == "refuse") return reject(1);
     if (behavior_ == "wrong-calling") return reject(3);
     if (behavior_ == "wrong-called") return reject(7);
-    if (behavior_ == "busy") return write_pdu(socket_, 3, std::string("\0\2\3\1", 4));
+    if (behavior_ == "busy" || (behavior_ == "busy-afterwards" && has_sent)) {
+      return write_pdu(socket_, 3, std::string("\0\2\3\1", 4));
+    }
     if (tells_) tell_association(request.body);
     contexts_ = accept(socket_, request.body, behavior_ != "offers-nothing");
     while (true) answer(read_request());
@@ -223,6 +227,7 @@ class Serving {
       return respond(socket_, request, 0);
     }
     if (behavior_ == "tells-of-other") return echo(request);
+    if (behavior_ == "forgets-afterwards" && has_sent) return respond(socket_, request, 0);
     if (behavior_ == "several") return find_several(request);
     if (behavior_ == "tells-late") throw Gone(read_pdu(socket_).type);
     if (behavior_ == "tells-and-errs") return write_message(socket_, request.context, "nonsense", {});
@@ -318,6 +323,7 @@ class Serving {
     send("1.2.3.4", study, "1.2.3.1");
     send("1.2.3.4", study, "1.2.3.1");  // the same once more
     send("1.2.3.5", study, "1.2.3.1");
+    has_sent = true;
     respond(socket_, request, 0, {}, 2);
   }
 
@@ -332,6 +338,11 @@ class Serving {
       const int socket = call(port_, "ODD");
       if (socket >= 0) read_pdu(socket);
       std::this_thread::sleep_for(std::chrono::seconds(60));
+    }
+    if (behavior_ == "drips-at-move") {
+      const int socket = call(port_, "ODD");
+      if (socket >= 0) read_pdu(socket);
+      drip(socket, 1, uid_of(request.keys.at(0x0020000D)));
     }
     if (behavior_ == "sends-slowly" || behavior_ == "calls-hesitantly-first") {
       if (behavior_ == "calls-hesitantly-first") call_hesitantly(port_);
