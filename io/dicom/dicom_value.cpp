@@ -83,6 +83,13 @@ std::string text_of(DcmItem& item, const DcmTagKey& tag) {
   return element != nullptr ? text_in(*element) : std::string();
 }
 
+std::string code_value(DcmItem& item) {
+  for (const DcmTagKey& place : {DCM_CodeValue, DCM_LongCodeValue, DCM_URNCodeValue}) {
+    if (std::string value = text_of(item, place); !value.empty()) return value;
+  }
+  return {};
+}
+
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = element_of(item, tag);
   if (element == nullptr || element->isEmpty()) return {};

@@ -14,6 +14,8 @@ namespace palpate::io::internal {
 
 /// All values of a text attribute (separated by backslashes), without trailing padding; empty if absent.
 std::string text_of(DcmItem& item, const DcmTagKey& tag);
+/// The value of a code, which has one of three places (PS3.3 8.1): short, long, or a URN.
+std::string code_value(DcmItem& item);
 
 /// The values of a numeric attribute (DS, IS or binary). Empty if absent or if one of them is not a finite number.
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag);

@@ -87,7 +87,9 @@ bool has_ending(const fs::path& name, const std::string& ending) {
   return text.ends_with(ending);
 }
 
-fs::path beside(const fs::path& header, const std::string& name) {
+fs::path beside(const fs::path& header, const std::string& named) {
+  std::string name = named;
+  while (name.starts_with("./")) name.erase(0, 2);
   const bool plain = !name.empty() && name != "LIST" && name.find('%') == std::string::npos &&
                      fs::path(name).filename() == name && name != "." && name != "..";
   fs::path file = header.parent_path() / name;

@@ -123,9 +123,29 @@ std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geo
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code) {
   DcmItem* inner = nullptr;
   succeed(item.findOrCreateSequenceItem(sequence, inner, 0));
-  succeed(inner->putAndInsertString(DCM_CodeValue, code.value.c_str()));
-  succeed(inner->putAndInsertString(DCM_CodingSchemeDesignator, code.scheme.c_str()));
-  succeed(inner->putAndInsertString(DCM_CodeMeaning, code.meaning.c_str()));
+  put_code(*inner, code);
+}
+
+namespace {
+
+bool is_urn(const Code& code) {
+  return code.value.starts_with("urn:") || code.value.find("://") != std::string::npos;
+}
+
+}  // namespace
+
+bool is_long(const Code& code) {
+  constexpr std::size_t longest_short_string = 16;
+  return code.value.size() > longest_short_string || is_urn(code);
+}
+
+void put_code(DcmItem& item, const Code& code) {
+  // PS3.3 8.1: a value has one of three places.
+  const DcmTagKey place = is_urn(code) ? DCM_URNCodeValue : is_long(code) ? DCM_LongCodeValue : DCM_CodeValue;
+  for (const DcmTagKey& other : {DCM_CodeValue, DCM_LongCodeValue, DCM_URNCodeValue}) item.findAndDeleteElement(other);
+  succeed(item.putAndInsertString(place, code.value.c_str()));
+  succeed(item.putAndInsertString(DCM_CodingSchemeDesignator, code.scheme.c_str()));
+  succeed(item.putAndInsertString(DCM_CodeMeaning, code.meaning.c_str()));
 }
 
 void put_common(const StudyHeader& header, const StructureLabel& label, const Series& scan, const WriteOptions& options,

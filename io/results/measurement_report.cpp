@@ -130,10 +130,13 @@ class Tree {
              point.structure.empty() ? "No boundary felt" : "Felt boundary: " + point.structure);
     add_coordinates(DSRTypes::RT_contains, CODE_DCM_ImageRegion, {point.position_mm});
     if (point.value) {
+      // The other units of a series are UCUM's own names (PS3.16 CID 82).
       const bool is_hu = unit == "HU";
+      const DSRCodedEntryValue other = unit.empty() || unit.size() > 16
+                                           ? DSRCodedEntryValue("1", "UCUM", "no units")
+                                           : DSRCodedEntryValue(unit.c_str(), "UCUM", unit.c_str());
       begin_number(is_hu ? CODE_DCM_AttenuationCoefficient : own_code("VALUE", "Value of the image"), *point.value,
-                   is_hu ? DSRCodedEntryValue("[hnsf'U]", "UCUM", "Hounsfield unit")
-                         : DSRCodedEntryValue("1", "UCUM", "no units"));
+                   is_hu ? DSRCodedEntryValue("[hnsf'U]", "UCUM", "Hounsfield unit") : other);
       end();
     }
     if (point.force_n) {
@@ -188,7 +191,7 @@ void write_measurement_report(const Series& series, const MeasurementReport& rep
   document.setSoftwareVersions(report.software_version.c_str());
   Tree(document.getTree(), header).fill(report, series.unit);
   for (const ReferencedImage& image : header.images) {
-    document.getCurrentRequestedProcedureEvidence().addItem(header.study_uid.c_str(), header.series_uid.c_str(),
+    document.getCurrentRequestedProcedureEvidence().addItem(header.study_uid.c_str(), image.series_uid.c_str(),
                                                             image.sop_class.c_str(), image.instance.c_str());
   }
   DcmFileFormat format;

@@ -48,7 +48,8 @@ void read_image(const Series& series, const std::filesystem::path& file, StudyHe
     throw DicomError(say("cannot-be-referred-to", file.string()));
   }
   DcmDataset& data = *format.getDataset();
-  header.images.push_back({value_of(data, DCM_SOPClassUID), value_of(data, DCM_SOPInstanceUID)});
+  header.images.push_back(
+      {value_of(data, DCM_SOPClassUID), value_of(data, DCM_SOPInstanceUID), value_of(data, DCM_SeriesInstanceUID)});
   if (header.images.size() > 1) return;
   header.study_uid = value_of(data, DCM_StudyInstanceUID);
   header.series_uid = value_of(data, DCM_SeriesInstanceUID);

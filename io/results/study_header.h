@@ -14,13 +14,14 @@ namespace palpate::io {
 
 struct ReferencedImage {
   std::string sop_class, instance;
+  std::string series_uid;  ///< of several, where the series was joined from them
 };
 
 struct StudyHeader {
   /// Attributes of patient and study: group and element, and the value in UTF-8. Attributes that the standard requires
   /// are there even if empty.
   std::vector<std::pair<std::uint32_t, std::string>> attributes;
-  std::string study_uid, series_uid, frame_of_reference_uid;
+  std::string study_uid, series_uid, frame_of_reference_uid;  ///< of the first image
   std::vector<ReferencedImage> images;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string>
 
 #include "io/errors.h"
@@ -37,9 +38,15 @@ void add_frame_of_reference(const StudyHeader& header, DcmItem& data) {
   DcmItem& study = add_item(frame, DCM_RTReferencedStudySequence);
   constexpr const char* retired_study_management = "1.2.840.10008.3.1.2.3.1";  // what PS3.3 C.8.8.5 has for a study
   refer({retired_study_management, header.study_uid}, study);
-  DcmItem& series = add_item(study, DCM_RTReferencedSeriesSequence);
-  put_text(series, DCM_SeriesInstanceUID, header.series_uid);
-  for (const ReferencedImage& image : header.images) refer(image, add_item(series, DCM_ContourImageSequence));
+  std::map<std::string, DcmItem*> series;
+  for (const ReferencedImage& image : header.images) {
+    DcmItem*& its = series[image.series_uid];
+    if (its == nullptr) {
+      its = &add_item(study, DCM_RTReferencedSeriesSequence);
+      put_text(*its, DCM_SeriesInstanceUID, image.series_uid);
+    }
+    refer(image, add_item(*its, DCM_ContourImageSequence));
+  }
 }
 
 /// How thick a slice alone is: contours of several slices say it by their distance. Retired, and read all the same.

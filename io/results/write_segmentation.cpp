@@ -25,9 +25,18 @@ namespace {
 
 const Code tissue{"85756007", "SCT", "Tissue"};  // where nobody says more
 
+const Code& known(const Code& code) {
+  return code.value.empty() || code.scheme.empty() || code.meaning.empty() ? tissue : code;
+}
+
 CodeSequenceMacro macro_of(const Code& code) {
-  const Code& known = code.value.empty() || code.scheme.empty() || code.meaning.empty() ? tissue : code;
-  return {known.value.c_str(), known.scheme.c_str(), known.meaning.c_str()};
+  const auto is_plain = [](const std::string& text) {
+    return text.size() <= 64 && std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
+  };
+  // put_codes() writes what DCMTK's classes take for wrong.
+  const bool takes_it = is_plain(known(code).meaning) && !is_long(known(code));
+  const Code& taken = takes_it ? known(code) : tissue;
+  return {taken.value.c_str(), taken.scheme.c_str(), taken.meaning.c_str()};
 }
 
 void add_segment(const StructureLabel& label, DcmSegmentation& document) {
@@ -48,10 +57,27 @@ void add_segment(const StructureLabel& label, DcmSegmentation& document) {
   segment.release();  // the document's
 }
 
+/// Meanings in UTF-8, and long values.
+void put_codes(const StructureLabel& label, DcmItem& segment) {
+  const auto put = [](DcmItem& item, const DcmTagKey& sequence, const Code& code, long number) {
+    DcmItem* found = nullptr;
+    succeed(item.findAndGetSequenceItem(sequence, found, number));
+    put_code(*found, known(code));
+    return found;
+  };
+  put(segment, DCM_SegmentedPropertyCategoryCodeSequence, label.category, 0);
+  DcmItem* const type = put(segment, DCM_SegmentedPropertyTypeCodeSequence, label.type, 0);
+  long number = 0;
+  for (const Code& modifier : label.modifiers) {
+    put(*type, DCM_SegmentedPropertyTypeModifierCodeSequence, modifier, number++);
+  }
+}
+
 /// Texts in UTF-8, which DCMTK's classes take for wrong.
 void put_texts(const StructureLabel& label, DcmDataset& data) {
   DcmItem* segment = nullptr;
   succeed(data.findAndGetSequenceItem(DCM_SegmentSequence, segment));
+  put_codes(label, *segment);
   succeed(segment->putAndInsertString(DCM_SegmentLabel, long_string(label.name).c_str()));
   if (label.tracking_id.empty() || label.tracking_uid.empty()) return;
   succeed(segment->putAndInsertString(DCM_TrackingID, label.tracking_id.c_str()));
@@ -120,9 +146,9 @@ void add_references(const StudyHeader& header, const StructureLabel& label, DcmS
     references.add(
         new IODImageReference("", study.c_str(), series.c_str(), image.instance.c_str(), image.sop_class.c_str()));
   };
-  for (const ReferencedImage& image : header.images) add(header.study_uid, header.series_uid, image);
+  for (const ReferencedImage& image : header.images) add(header.study_uid, image.series_uid, image);
   if (const auto& origin = label.origin; origin && !origin->instance.empty()) {
-    add(origin->study_uid, origin->series_uid, {origin->sop_class, origin->instance});
+    add(origin->study_uid, origin->series_uid, {origin->sop_class, origin->instance, origin->series_uid});
   }
   document.getCommonInstanceReference().addReferences(references, header.study_uid.c_str());
 }

@@ -165,7 +165,9 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
   std::set<int> numbers;
   for (const auto& [number, box] : boxes) numbers.insert(number);
   // Labels that the file names without any voxel are listed, too, but cannot be felt; so is an empty mask.
-  for (const auto& [number, name] : names) numbers.insert(number);
+  for (const auto& [number, name] : names) {
+    if (number > 0) numbers.insert(number);  // 0 is the background
+  }
   if (numbers.empty()) numbers.insert(1);
   const bool is_one_mask = names.empty() && numbers.size() == 1;
   std::vector<Structure> structures;

@@ -302,7 +302,7 @@ std::string code_in(DcmItem& segment) {
   if (code == nullptr) {
     return {};
   }
-  return text_of(*code, DCM_CodingSchemeDesignator) + ' ' + text_of(*code, DCM_CodeValue) + ' ' +
+  return text_of(*code, DCM_CodingSchemeDesignator) + ' ' + internal::code_value(*code) + ' ' +
          text_of(*code, DCM_CodeMeaning);
 }
 

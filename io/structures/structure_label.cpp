@@ -26,7 +26,7 @@ struct Texts {
   }
   Code code(DcmItem* item) const {
     if (item == nullptr) return {};
-    return {(*this)(*item, DCM_CodeValue), (*this)(*item, DCM_CodingSchemeDesignator), (*this)(*item, DCM_CodeMeaning)};
+    return {internal::code_value(*item), (*this)(*item, DCM_CodingSchemeDesignator), (*this)(*item, DCM_CodeMeaning)};
   }
 };
 

@@ -142,7 +142,7 @@ void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
   felt_ = felt_of(scene, volume_);
   offered_ = {};
   scene_ = scene;
-  publish(pace == Pace::dragged ? dragged_s : ramp_s());
+  publish(pace == Pace::at_once ? 0 : pace == Pace::dragged ? dragged_s : ramp_s());
 }
 
 void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {

@@ -1,5 +1,7 @@
 #include "plugin/paraview/client/model/session_controller.h"
 
+#include <QPointer>
+
 #include <algorithm>
 #include <exception>
 #include <glm/geometric.hpp>
@@ -85,8 +87,8 @@ bool SessionController::is_read_for(const std::shared_ptr<const io::Volume>& vol
 
 void SessionController::take_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
   coming_.reader.cancel();
-  coming_.expected = false;
-  mark_button_.forget();  // they would be of two scans
+  if (std::exchange(coming_.expected, false)) parted_.reset();  // where the stylus was says nothing of this scan
+  mark_button_.forget();                                        // they would be of two scans
   QString problem;
   std::optional<RecorderStatus> recorded_now;
   try {
@@ -110,12 +112,15 @@ void SessionController::commit(const modes::Scene& scene, Pace pace) {
     return;
   }
   if (live_.scan()) refuse_misfit(scene, *live_.scan());
-  live_.set_scene(scene, pace);
+  live_.set_scene(scene, may_remap() ? Pace::at_once : pace);
   follow_workspace();
 }
 
 void SessionController::follow_workspace() {
-  if (live_.plan() && workspace_.change_to(live_.plan()->workspace)) hand_.forget_place();
+  if (!live_.plan() || !workspace_.change_to(live_.plan()->workspace, live_.epoch())) return;
+  hand_.forget_place();
+  // The stylus slides through the patient to its new place: no force may meet it on its way.
+  if (feels()) release();
 }
 
 void SessionController::connect_stylus(const StylusChoice& choice) {
@@ -207,7 +212,7 @@ void SessionController::clear_fault() {
   QString problem;
   try {
     live_.reopen();
-    ticks_.count_anew();
+    begin_anew();
   } catch (const std::exception& error) {
     hand_.hold(nullptr);
     problem = QString::fromUtf8(error.what());
@@ -215,6 +220,11 @@ void SessionController::clear_fault() {
   poll();
   emit connection_changed();
   emit told(problem, true);
+}
+
+void SessionController::begin_anew() {
+  ticks_.count_anew();
+  if (live_.plan()) workspace_.set(live_.plan()->workspace);
 }
 
 QString SessionController::last_fault() const {
@@ -228,7 +238,7 @@ void SessionController::record(const std::string& file) {
     if (hand_.holds()) move_hand(status_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
-    ticks_.count_anew();
+    begin_anew();
   } catch (const std::exception& error) {
     problem = QString::fromUtf8(error.what());
   }
@@ -276,12 +286,13 @@ FeltMark SessionController::mark_here() const {
 void SessionController::follow_marks() {
   if (parted_) return mark_button_.drop();
   const auto proxy_mm = [this](const TickRecord& tick) {
-    return workspace_.at(tick.change_part).to_patient(vector_of(tick.proxy_m));
+    return workspace_.at(tick).to_patient(vector_of(tick.proxy_m));
   };
   if (const auto made = mark_button_.follow(status_.tick, status_.shares, live_.scene(), proxy_mm)) emit marked(*made);
 }
 
 void SessionController::clutch() {
+  if (parted_) parted_->ends = false;
   if (!live_.is_connected() || parted_) return;
   mark_button_.forget();
   parted_ = Parted{.at_mm = status_.probe_mm, .felt = feels()};
@@ -289,20 +300,32 @@ void SessionController::clutch() {
 }
 
 void SessionController::unclutch(const glm::dmat3& rotation) {
-  const auto parted = std::exchange(parted_, std::nullopt);
-  if (!parted) return;
+  if (!parted_ || parted_->ends) return;
+  parted_->ends = true;
+  // Both may come later, where structures are being read.
+  const auto join = [alive = QPointer(this), rotation](modes::Scene& scene) {
+    if (alive && alive->parted_) scene.workspace = alive->joined(rotation);
+  };
+  const auto told = [alive = QPointer(this)](const QString& why) {
+    if (!alive || !alive->parted_ || !alive->parted_->ends) return;
+    const bool felt = std::exchange(alive->parted_, std::nullopt)->felt;
+    if (!why.isEmpty()) emit alive->told(why, true);
+    if (felt && why.isEmpty()) alive->feel();
+  };
+  model_.edit(tr("Clutch"), join, told);
+}
+
+modes::WorkspaceSettings SessionController::joined(const glm::dmat3& rotation) const {
   const glm::dvec3 hand_m = vector_of(status_.tick.probe_m);
   const modes::Workspace held{.center_mm = {}, .rotation = rotation, .mm_per_m = workspace_.now().mm_per_m};
-  const glm::dvec3 center = parted->at_mm - held.to_patient(hand_m);
-  const modes::WorkspaceSettings settings{
-      .center_mm = center, .rotation = rotation, .scale = workspace_.now().mm_per_m / 1e3, .fit = false};
-  model_.edit(tr("Clutch"), [settings](modes::Scene& scene) { scene.workspace = settings; });
-  workspace_.skip_change();  // hand and patient were parted
-  if (parted->felt) feel();
+  return {.center_mm = parted_->at_mm - held.to_patient(hand_m),
+          .rotation = rotation,
+          .scale = workspace_.now().mm_per_m / 1e3,
+          .fit = false};
 }
 
 bool SessionController::may_remap() const {
-  return !live_.is_connected() || parted_ || status_.force_n == 0;
+  return !live_.is_connected() || (!feels() && status_.force_n == 0);
 }
 
 void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
@@ -336,7 +359,7 @@ void SessionController::poll() {
   if (!is_silent) status_.held_up.clear();
   if (is_silent && status_.held_up.isEmpty()) status_.held_up = slow_.in_words();
   status_.feels = feels();
-  status_.workspace = workspace_.at(tick.change_part);
+  status_.workspace = workspace_.at(tick);
   status_.probe_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.probe_m));
   status_.proxy_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.proxy_m));
   status_.force_n = glm::length(vector_of(tick.sent_n));
@@ -358,7 +381,7 @@ void SessionController::poll() {
   status_.held = held ? in_words(*held) : "";
   // On an edge the value is one of neither side: half-way from air to muscle it is fat's.
   if (held && live_.scene().modes[held->mode].structure.empty()) status_.tissue = "between tissues";
-  obey_buttons(buttons.pressed, buttons.let);
+  obey_buttons(buttons.pressed, buttons.let & ~tick.buttons);
   hand_.give_way(tick, status_.force_n);
   emit polled(status_);
 }

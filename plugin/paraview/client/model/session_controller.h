@@ -121,7 +121,7 @@ class SessionController : public QObject {
   void clutch();
   void unclutch(const glm::dmat3& rotation);
   bool is_clutched() const { return parted_.has_value(); }
-  /// Whether the mapping may change: not while a force is felt, because the force would jump and throw the hand.
+  /// Whether the mapping may change: not while forces are on, because the stylus slides through the patient then.
   bool may_remap() const;
 
   /// Gives the status while no stylus is connected.
@@ -157,6 +157,10 @@ class SessionController : public QObject {
   /// Whether a scan waits for files that are being read for it; take_scan() follows.
   bool is_read_for(const std::shared_ptr<const io::Volume>& volume, const ScanFrame& frame);
   QString why_kept_off() const;
+  /// The session has begun anew, on the same stylus.
+  void begin_anew();
+  /// The mapping with which hand and patient meet where the stylus stayed.
+  modes::WorkspaceSettings joined(const glm::dmat3& rotation) const;
   void commit(const modes::Scene& scene, Pace pace);
   void follow_workspace();
   void poll();
@@ -176,6 +180,7 @@ class SessionController : public QObject {
   struct Parted {
     glm::dvec3 at_mm{0};  ///< where the stylus stays in the patient
     bool felt = false;    ///< forces return when it ends
+    bool ends = false;    ///< as soon as the scene has the new mapping
   };
   std::optional<Parted> parted_;
   QString kept_off_;

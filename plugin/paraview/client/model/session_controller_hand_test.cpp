@@ -275,6 +275,120 @@ TEST_F(ControlledSession, TheMappingStaysWhileAForceIsFelt) {
   session.move_hand(inside);
   ASSERT_TRUE(pushes());
   EXPECT_FALSE(session.may_remap());
+  session.move_hand(outside);
+  ASSERT_TRUE(comes([this] { return last().force_n == 0; }));
+  EXPECT_FALSE(session.may_remap()) << "a surface may lie on the way";
+  session.release();
+  EXPECT_TRUE(comes([this] { return session.may_remap(); }));
+}
+
+/// The hand went through the ball to its other side. The stylus has not moved, so there is nothing to feel.
+TEST_F(ControlledSession, NothingIsFeltWhereAClutchEnds) {
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  session.clutch();
+  ASSERT_TRUE(comes([this] { return !last().feels && last().force_n == 0; }));
+  session.move_hand(-outside);
+  ASSERT_TRUE(comes(
+      [this] { return glm::distance(last().workspace.to_patient(vector_of(last().tick.probe_m)), -outside) < 2; }));
+  polls(15);  // until it rests
+  double strongest_n = 0, farthest_mm = 0;
+  const auto watched = QObject::connect(&session, &SessionController::polled, [&](const SessionStatus& status) {
+    strongest_n = std::max(strongest_n, status.peak_n);
+    farthest_mm = std::max(farthest_mm, glm::distance(status.probe_mm, outside));
+  });
+  session.unclutch(last().workspace.rotation);
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  polls(30);  // longer than a scene's ramp
+  QObject::disconnect(watched);
+  EXPECT_LT(strongest_n, 0.05);
+  EXPECT_LT(farthest_mm, 2);
+}
+
+/// By an edit, its undo, or any other scene: the stylus slides to its new place, and a surface on its way would push.
+TEST_F(ControlledSession, AMappingThatChangesTakesTheForce) {
+  connect_simulated();
+  const auto shift = [scale = last().workspace.mm_per_m / 1e3](modes::Scene& scene) {
+    scene.workspace.center_mm = {0, 8, 0};
+    scene.workspace.scale = scale;
+    scene.workspace.fit = false;
+  };
+  const std::pair<const char*, std::function<void()>> changes[] = {
+      {"an edit", [&] { model.edit(QStringLiteral("Shift"), shift); }}, {"its undo", [&] { model.undo(); }}};
+  for (const auto& [what, change] : changes) {
+    SCOPED_TRACE(what);
+    ASSERT_TRUE(goes_to(outside));
+    session.feel();
+    session.move_hand(inside);
+    ASSERT_TRUE(pushes());
+    polls(5);
+    const double before_n = last().force_n;
+    double strongest_n = 0;
+    const auto watched = QObject::connect(&session, &SessionController::polled, [&](const SessionStatus& status) {
+      strongest_n = std::max(strongest_n, status.peak_n);
+    });
+    change();
+    ASSERT_TRUE(comes([this] { return !last().feels && last().force_n == 0; }));
+    polls(20);
+    QObject::disconnect(watched);
+    EXPECT_LT(strongest_n, before_n + 0.1);
+    EXPECT_EQ(last().force_n, 0);
+  }
+  // What leaves the mapping as it is leaves the force, too.
+  ASSERT_TRUE(goes_to(outside));
+  session.feel();
+  ASSERT_TRUE(comes([this] { return last().feels; }));
+  model.edit(QStringLiteral("Limit"), [](modes::Scene& scene) { scene.limits.force_n *= 0.9; });
+  polls(5);
+  EXPECT_TRUE(last().feels);
+}
+
+/// The clutch's own step waits for structures that are being read; so does the force.
+TEST_F(ControlledSession, AClutchEndsWhenItsStepDoes) {
+  for (const bool refused : {false, true}) {
+    SCOPED_TRACE(refused);
+    connect_simulated();
+    ASSERT_TRUE(goes_to(outside));
+    session.feel();
+    ASSERT_TRUE(comes([this] { return last().feels; }));
+    std::function<void(const QString&)> done;
+    bool reads = true;
+    model.set_read([&](const modes::Scene&, auto then) {
+      if (reads) done = then;
+      return reads;
+    });
+    session.clutch();
+    ASSERT_TRUE(comes([this] { return !last().feels; }));
+    session.unclutch(last().workspace.rotation);
+    polls(5);
+    EXPECT_TRUE(session.is_clutched());
+    EXPECT_FALSE(last().feels);
+    told.clear();
+    reads = false;
+    done(refused ? QStringLiteral("it cannot be read") : QString());
+    EXPECT_FALSE(session.is_clutched());
+    if (refused) {
+      polls(5);
+      EXPECT_FALSE(last().feels);
+      EXPECT_THAT(told, ::testing::ElementsAre(std::pair("it cannot be read", true)));
+    } else {
+      EXPECT_TRUE(comes([this] { return last().feels; }));
+    }
+    session.disconnect_stylus();
+  }
+}
+
+TEST_F(ControlledSession, AnotherScanEndsTheClutch) {
+  connect_simulated();
+  ASSERT_TRUE(goes_to(outside));
+  session.clutch();
+  session.set_scan(igtl::testing::ball_of_tissue(), {});
+  EXPECT_TRUE(session.is_clutched()) << "another frame of the same scan is where it was";
+  session.expect_scan();
+  session.set_scan(igtl::testing::ball_of_tissue(), {});
+  EXPECT_FALSE(session.is_clutched());
 }
 
 TEST_F(ControlledSession, WhatKeepsTheForceOffEndsItAndRefusesTheNext) {

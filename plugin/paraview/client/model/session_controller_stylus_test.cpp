@@ -93,6 +93,22 @@ TEST_F(SessionOfAStylus, ItsButtonsClutchMarkAndRelease) {
   EXPECT_TRUE(comes([this] { return marks.size() == 1; }));
 }
 
+/// A contact that bounces between two polls, or a panel that was busy: the button is down at the end.
+TEST_F(SessionOfAStylus, AClutchButtonThatIsDownHoldsTheClutch) {
+  ASSERT_TRUE(is_connected());
+  ASSERT_TRUE(is_felt());
+  for (const std::uint32_t buttons : {1U, 0U, 1U}) {
+    hold_down(buttons);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // no poll comes in between
+  }
+  EXPECT_TRUE(comes([this] { return session.is_clutched(); }));
+  polls(5);
+  EXPECT_EQ(unclutches, 0);
+  EXPECT_FALSE(last().feels);
+  ASSERT_TRUE(holds_down(0));
+  EXPECT_TRUE(comes([this] { return unclutches == 1; }));
+}
+
 TEST_F(SessionOfAStylus, ItsOrientationIsInThePatient) {
   ASSERT_TRUE(is_connected());
   ASSERT_TRUE(comes([this] { return last().orientation.has_value(); }));
