@@ -207,6 +207,18 @@ TEST(Interchange, LabelsInAnotherOrderOfAxesAreRefused) {
             "its labels lie in an order of axes that is read only for scans: resample it on the scan");
 }
 
+/// As examples of NRRD have it.
+TEST(Interchange, VoxelsBesideTheirHeaderMayBeNamedFromIt) {
+  for (const char* const name : {"a.raw", "./a.raw", "././a.raw"}) {
+    const TestFolder folder;
+    write_bytes(folder / "a.mhd", meta_image(meta_place + "ElementDataFile = " + name + "\n"));
+    write_bytes(folder / "a.raw", voxels<std::int16_t>());
+    SCOPED_TRACE(name);
+    expect_all(
+        only_volume(folder / "a.mhd"), [](int a, int b, int c) { return place_of(meta_rows, a, b, c); }, stored);
+  }
+}
+
 TEST(Interchange, IsRefusedInWords) {
   const std::string data = voxels<std::int16_t>();
   EXPECT_EQ(refusal_of("a.mha", meta_image(meta_place + "ElementDataFile = LOCAL\n") + data.substr(1)),
@@ -216,7 +228,7 @@ TEST(Interchange, IsRefusedInWords) {
   EXPECT_EQ(
       refusal_of("a.mha", meta_image(meta_place + "ElementNumberOfChannels = 3\nElementDataFile = LOCAL\n") + data),
       "it holds 3 values for each voxel: save one of them in a file of its own");
-  for (const char* const other : {"../a.raw", "/etc/passwd", "LIST", "a%03d.raw", "absent.raw"}) {
+  for (const char* const other : {"../a.raw", "./../a.raw", "/etc/passwd", "LIST", "a%03d.raw", "absent.raw"}) {
     EXPECT_EQ(refusal_of("a.mhd", meta_image(meta_place + "ElementDataFile = " + other + "\n")),
               "its voxels are in several files, or in one that is not beside it: save header and voxels in one file");
   }

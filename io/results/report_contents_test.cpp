@@ -185,13 +185,21 @@ TEST(ReportContents, AreTheStandardsCodesAndWhatWasMeasured) {
   EXPECT_EQ(small(contents_of(told_series(scratch.path()), report, scratch.path() / "report")), small(expected));
 }
 
-TEST(ReportContents, SayNoUnitWhereTheScanHasNone) {
+/// Of a scan without a unit, of a PET, a dose, a flow, and of a map whose unit is too long for a code.
+TEST(ReportContents, SayTheUnitOfTheScan) {
   const FreshFolder scratch = temporary_folder();
   Series series = told_series(scratch.path());
-  series.unit = "";
   const MeasurementReport report{.software_version = "1", .points = {{"Mark", {1, 2, 3}, "", 7.25, {}}}, .lengths = {}};
-  const auto lines = contents_of(series, report, scratch.path() / "report");
-  EXPECT_EQ(std::ranges::count(lines, "NUM, VALUE 99PALPATE 'Value of the image': 7.25 1 UCUM 'no units'"), 1);
+  for (const auto& [unit, expected] : {std::pair{"", "1 UCUM 'no units'"},
+                                       {"Bq/ml", "Bq/ml UCUM 'Bq/ml'"},
+                                       {"Gy", "Gy UCUM 'Gy'"},
+                                       {"m/s", "m/s UCUM 'm/s'"},
+                                       {"10*-6.mm2/s.kg.m.A", "1 UCUM 'no units'"}}) {
+    series.unit = unit;
+    const auto lines = contents_of(series, report, scratch.path() / "report");
+    const std::string line = std::string("NUM, VALUE 99PALPATE 'Value of the image': 7.25 ") + expected;
+    EXPECT_EQ(std::ranges::count(lines, line), 1) << unit;
+  }
 }
 
 /// What each file says once, whoever made it and whatever is in it.
@@ -264,14 +272,15 @@ TEST(ReportContents, ReferToEachImageOfItsSeries) {
   DcmItem *study = nullptr, *series = nullptr, *image = nullptr;
   ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(DCM_CurrentRequestedProcedureEvidenceSequence, study).good());
   EXPECT_EQ(said(*study, DCM_StudyInstanceUID), "1.2.3.2");
-  ASSERT_TRUE(study->findAndGetSequenceItem(DCM_ReferencedSeriesSequence, series).good());
-  EXPECT_EQ(said(*series, DCM_SeriesInstanceUID), "1.2.3.3");
   std::vector<std::string> images;
-  for (long n = 0; series->findAndGetSequenceItem(DCM_ReferencedSOPSequence, image, n).good(); ++n) {
-    images.push_back(said(*image, DCM_ReferencedSOPClassUID) + " " + said(*image, DCM_ReferencedSOPInstanceUID));
+  for (long s = 0; study->findAndGetSequenceItem(DCM_ReferencedSeriesSequence, series, s).good(); ++s) {
+    for (long n = 0; series->findAndGetSequenceItem(DCM_ReferencedSOPSequence, image, n).good(); ++n) {
+      images.push_back(said(*series, DCM_SeriesInstanceUID) + " " + said(*image, DCM_ReferencedSOPClassUID) + " " +
+                       said(*image, DCM_ReferencedSOPInstanceUID));
+    }
   }
-  EXPECT_EQ(images, (std::vector<std::string>{std::string(UID_CTImageStorage) + " 1.2.3.5",
-                                              std::string(UID_MRImageStorage) + " 1.2.3.6"}));
+  EXPECT_EQ(images, (std::vector<std::string>{std::string("1.2.3.3 ") + UID_CTImageStorage + " 1.2.3.5",
+                                              std::string("1.2.3.33 ") + UID_MRImageStorage + " 1.2.3.6"}));
 }
 
 /// DICOM PS3.3 C.7.6.3 and C.8.6: colors of 8 bits, pixel by pixel, from a workstation, derived; no patient's data in

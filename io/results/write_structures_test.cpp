@@ -6,6 +6,7 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <map>
 #include <set>
 
 #include "io/archive/testing/says.h"
@@ -172,6 +173,73 @@ TEST(WriteSegmentation, KeepsWhatItsLabelSays) {
     }
     EXPECT_TRUE(found) << f;
   }
+}
+
+/// Meanings in any letters, values that are too long for a short string, and URNs (PS3.3 8.1).
+TEST(WriteSegmentation, KeepsEveryCode) {
+  const TestFolder folder;
+  const Series scan = testing::write_scan(scan_kind("axial"), folder / "scan");
+  const Shape ball = testing::shapes_in(scan.geometry).front();
+  const Code codes[] = {{"10200004", "SCT", "Liver"},
+                        {"69748006", "SCT", "Glándula tiroides (Schilddrüse)"},
+                        {"69748006", "SCT", "甲状腺"},
+                        {"9999999999999999", "SCT", "of 16 figures"},
+                        {"99999999999999999", "SCT", "of 17"},
+                        {"900000000000000000000207008", "SCT", "甲状腺"},
+                        {"urn:oid:1.2.3", "99TEST", "by a name"},
+                        {"http://example.org/thyroid", "99TEST", "by an address"}};
+  for (const Code& code : codes) {
+    SCOPED_TRACE(code.value + " " + code.meaning);
+    StructureLabel label = full_label();
+    label.category = label.type = code;
+    label.modifiers = {{"7771000", "SCT", "Left"}, code};
+    write_segmentation(sample_labels(label, scan.geometry, ball.distance), scan, folder / "coded.dcm", options());
+    const Structure written = only_structure_in(folder / "coded.dcm");
+    EXPECT_EQ(written.code, code.scheme + " " + code.value + " " + code.meaning);
+    const StructureLabel read = label_of(written);
+    EXPECT_EQ(read.category, code);
+    EXPECT_EQ(read.type, code);
+    EXPECT_EQ(read.modifiers, label.modifiers);
+    fs::remove(folder / "coded.dcm");
+  }
+}
+
+/// A volume may be joined from several series: each image is referred to in its own.
+TEST(WriteStructure, RefersToEachImageInItsSeries) {
+  const TestFolder folder;
+  const Series scan = testing::write_scan(scan_kind("axial"), folder / "scan");
+  std::map<std::string, std::string> series_of;
+  for (std::size_t n = 0; n < scan.files.size(); ++n) {
+    DcmFileFormat file;
+    ASSERT_TRUE(file.loadFile(scan.files[n].c_str()).good());
+    ASSERT_TRUE(file.loadAllDataIntoMemory().good());
+    file.getDataset()->putAndInsertString(DCM_SeriesInstanceUID, n % 3 == 0 ? "1.2.77" : "1.2.78");
+    ASSERT_TRUE(file.saveFile(scan.files[n].c_str()).good());
+    series_of[tag_text(*file.getDataset(), DCM_SOPInstanceUID)] = tag_text(*file.getDataset(), DCM_SeriesInstanceUID);
+  }
+  const Shape ball = testing::shapes_in(scan.geometry).front();
+  StructureLabel label = full_label();
+  label.origin.reset();
+  write_segmentation(sample_labels(label, scan.geometry, ball.distance), scan, folder / "seg.dcm", options());
+  write_contours(trace_slices(label, scan.geometry, ball.distance), scan, folder / "rt.dcm", options());
+  const auto referred = [](DcmItem& in, const DcmTagKey& all, const DcmTagKey& images) {
+    std::map<std::string, std::string> found;
+    DcmItem *series = nullptr, *image = nullptr;
+    for (long s = 0; in.findAndGetSequenceItem(all, series, s).good(); ++s) {
+      for (long n = 0; series->findAndGetSequenceItem(images, image, n).good(); ++n) {
+        found[tag_text(*image, DCM_ReferencedSOPInstanceUID)] = tag_text(*series, DCM_SeriesInstanceUID);
+      }
+    }
+    return found;
+  };
+  DcmFileFormat seg, rt;
+  ASSERT_TRUE(seg.loadFile((folder / "seg.dcm").c_str()).good());
+  EXPECT_EQ(referred(*seg.getDataset(), DCM_ReferencedSeriesSequence, DCM_ReferencedInstanceSequence), series_of);
+  ASSERT_TRUE(rt.loadFile((folder / "rt.dcm").c_str()).good());
+  DcmItem *frame = nullptr, *study = nullptr;
+  ASSERT_TRUE(rt.getDataset()->findAndGetSequenceItem(DCM_ReferencedFrameOfReferenceSequence, frame).good());
+  ASSERT_TRUE(frame->findAndGetSequenceItem(DCM_RTReferencedStudySequence, study).good());
+  EXPECT_EQ(referred(*study, DCM_RTReferencedSeriesSequence, DCM_ContourImageSequence), series_of);
 }
 
 /// A frame of a multi-frame file is referred to by its number.
