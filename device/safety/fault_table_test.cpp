@@ -59,8 +59,8 @@ TEST_P(FaultTable, NoEventRaisesAForceStepsItOrLeavesIt) {
         << ": plugin/docs/safety.md has another table than `palpate-faults --markdown`";
     events.insert(row.event);
   }
-  const bool has_motors = GetParam() != std::string("space_mouse");
-  const bool is_arithmetic = GetParam() == std::string("simulated");
+  const FakeRig rig = make_rig(GetParam());
+  const bool has_motors = rig.type->has_force, is_arithmetic = rig.is_arithmetic();
   EXPECT_EQ(events.size(), rows.size());
   const std::size_t fewest = !has_motors ? 0 : is_arithmetic ? 11 : 18;
   EXPECT_GE(rows.size(), fewest);

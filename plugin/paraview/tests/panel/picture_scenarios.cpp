@@ -48,10 +48,10 @@ void fold(const char* section, bool open) {
 
 /// One section alone, from its heading to the end of what is in sight of it.
 void save_section(const char* name, const char* section) {
-  for (const char* const other :
-       {"palpateScanSection", "palpateTissuesSection", "palpateStylusSection", "palpateCurvesSection",
-        "palpateMarksSection", "palpateModesSection", "palpateProfileSection", "palpateRecordingsSection"}) {
-    if (widget(other)) fold(other, other == std::string(section));
+  for (QToolButton* const header : pqCoreUtilities::mainWidget()->findChildren<QToolButton*>()) {
+    const QString fold_name = header->objectName();
+    if (!fold_name.endsWith("SectionFold")) continue;
+    fold(fold_name.chopped(4).toStdString().c_str(), fold_name == QString(section) + "Fold");
   }
   save_widget(name, section);
 }
