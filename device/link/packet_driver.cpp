@@ -19,7 +19,8 @@ void PacketDriver::connect() {
 }
 
 void PacketDriver::disconnect() noexcept {
-  if (link_) protocol_->disconnected(link_->lost());
+  const bool is_doubtful = std::exchange(home_is_doubtful_, false);
+  if (link_) protocol_->disconnected(link_->lost() || is_doubtful);
   link_.reset();
 }
 
