@@ -26,8 +26,6 @@ class Driver {
 
   /// Opens the device and brings it into its working state. Throws std::runtime_error naming it and what to do.
   virtual void connect() = 0;
-  /// Its home may be lost without a sign of it: the next connect() has to find it anew.
-  virtual void forget_home() noexcept {}
   /// Called after the zeros have been given. May be called without connect().
   virtual void disconnect() noexcept = 0;
   /// s, never decreasing; only while connected.

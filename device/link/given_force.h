@@ -28,8 +28,6 @@ class GivenForce {
   OnDevice on_device() const noexcept { return on_device_; }
   /// s since the device began to refuse every force.
   double refused_for(double now) const noexcept { return refuses_ ? now - taken_time_ : 0; }
-  /// When the device last took a force, or a zero in its place; s
-  double taken_time() const noexcept { return taken_time_; }
   /// N
   const Vec3& given() const noexcept { return given_; }
 

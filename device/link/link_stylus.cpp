@@ -115,7 +115,6 @@ void LinkStylus::open() {
   load_ = {};
   loss_told_ = false;
   given_.start(opened_);
-  ready_time_ = opened_;
   force_.store(Vec3(0));
   wanted_ = force_.load();
   reading_.store({});
@@ -158,8 +157,6 @@ void LinkStylus::close() noexcept {
     thread_.join();
   }
   send_zeros();
-  // Its power may have been off, and with it what it counted from.
-  if (fault() == LinkFault::slept || fault() == LinkFault::silent) driver_->forget_home();
   driver_->disconnect();
   connected_ = false;
   if (guardian_) may_push_on() ? guardian_->hand_over() : guardian_->dismiss();
@@ -237,13 +234,6 @@ void LinkStylus::give(double now, bool closing) noexcept {
   if (guardian_) guardian_->beat(on_device);
   given_.answered(driver_->give(options_.signs.force * force), force, news, now);
   if (given_.refused_for(now) > ceiling::refusal_s) fail(LinkFault::forces_refused);
-  judge_taking(now);
-}
-
-void LinkStylus::judge_taking(double now) noexcept {
-  // Poses go on while no packet can be sent: what was given last is still there, or the device's watchdog has ended it.
-  if (specification_.force_axes == 0 || driver_->status().state != State::idle) ready_time_ = now;
-  if (now - std::max(ready_time_, given_.taken_time()) > ceiling::untaken_s) fail(LinkFault::forces_refused);
 }
 
 void LinkStylus::judge_rate(double now) noexcept {

@@ -66,7 +66,6 @@ class LinkStylus final : public Stylus {
   void judge_rate(double now) noexcept;
   void judge_clocks(double now) noexcept;
   void judge_guardian(double now) noexcept;
-  void judge_taking(double now) noexcept;
   void connect();
   void give(double now, bool closing) noexcept;
   bool withholds(double now, bool closing) const noexcept;
@@ -94,7 +93,6 @@ class LinkStylus final : public Stylus {
   double asleep_ = 0;
   double force_time_ = 0;
   double news_time_ = 0;
-  double ready_time_ = 0;  // s: since then it could take forces
   std::uint64_t news_ = 0;
   double window_start_ = 0;
   std::uint64_t window_news_ = 0;

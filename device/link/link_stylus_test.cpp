@@ -47,32 +47,6 @@ TEST(LinkStylus, NothingIsPushedAgainAfterTheProgramWasStopped) {
   EXPECT_EQ(stylus->fault(), LinkFault::held_up);
 }
 
-/// It goes on to send poses, but nothing can be sent to it: an endpoint that stalls, a full buffer.
-TEST(LinkStylus, ADeviceThatTakesNothingIsAFault) {
-  for (const bool recovers : {true, false}) {
-    LinkBench bench;
-    const auto stylus = unthreaded(bench);
-    push(bench, *stylus, 3, 1);
-    bench.answer = ForceAnswer::waiting;
-    push(bench, *stylus, 3, 0.15);  // as long as a lost answer takes, twice
-    EXPECT_EQ(stylus->fault(), LinkFault::none);
-    if (recovers) bench.answer = ForceAnswer::taken;
-    push(bench, *stylus, 3, 0.1);
-    EXPECT_EQ(stylus->fault(), recovers ? LinkFault::none : LinkFault::forces_refused);
-  }
-  // One that is not ready has nothing to take.
-  LinkBench bench;
-  bench.state = State::homing;
-  bench.answer = ForceAnswer::waiting;
-  const auto stylus = unthreaded(bench);
-  push(bench, *stylus, 3, 2);
-  EXPECT_EQ(stylus->fault(), LinkFault::none);
-  bench.state = State::idle;
-  bench.answer = ForceAnswer::taken;
-  push(bench, *stylus, 3, 2);
-  EXPECT_EQ(stylus->fault(), LinkFault::none);
-}
-
 TEST(LinkStylus, GivesForLongNoMoreThanTheContinuousForce) {
   LinkBench bench;
   const auto stylus = unthreaded(bench);

@@ -19,8 +19,7 @@ void PacketDriver::connect() {
 }
 
 void PacketDriver::disconnect() noexcept {
-  const bool is_doubtful = std::exchange(home_is_doubtful_, false);
-  if (link_) protocol_->disconnected(link_->lost() || is_doubtful);
+  if (link_) protocol_->disconnected(link_->lost());
   link_.reset();
 }
 

@@ -20,7 +20,6 @@ class PacketDriver final : public Driver {
   PacketDriver(std::unique_ptr<Protocol> protocol, LinkMaker make_link);
 
   void connect() override;
-  void forget_home() noexcept override { home_is_doubtful_ = true; }
   void disconnect() noexcept override;
   double now() noexcept override { return link_->now(); }
   void take(double timeout) noexcept override;
@@ -36,7 +35,6 @@ class PacketDriver final : public Driver {
   LinkMaker make_link_;
   std::unique_ptr<Link> link_;
   std::vector<std::uint8_t> packet_;
-  bool home_is_doubtful_ = false;
 };
 
 }  // namespace palpate::device

@@ -118,11 +118,8 @@ int main(int count, char** arguments) {
   if (beat != nullptr) prove_and_prepare(device, *beat);
   const char word = wait_for_word(device, beat);
   if (word == 'q') return 0;
-  // The session waits for this process only, not for what goes on in its child. A device that is there gets its zero
-  // before the session may open it again.
-  if (word == 'w') {
-    return try_zero_force(device.kind, device.address) || fork() != 0 || wait_for_device(device, login) ? 0 : 1;
-  }
+  // The session waits for this process only, not for what goes on in its child.
+  if (word == 'w') return fork() != 0 || wait_for_device(device, login) ? 0 : 1;
   const double begun = monotonic_time();
   const bool zeroed = send_zero_force(device.kind, device.address, asks_after);
   tell(false, device, zeroed, begun);

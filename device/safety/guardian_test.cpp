@@ -104,18 +104,6 @@ TEST(Guardian, SendsZerosToADeviceThatComesBack) {
   node.wait_until_stopped();
 }
 
-/// The session may open it again as soon as it has handed it over: nobody else is at it then.
-TEST(Guardian, SendsZerosToADeviceThatIsThereBeforeItEnds) {
-  const Guarded node;
-  node.guardian->prove();
-  node.guardian->reach();
-  node.guardian->beat(OnDevice::unknown);
-  node.guardian->hand_over();
-  EXPECT_EQ(node.device->stopped, 1);
-  std::this_thread::sleep_for(milliseconds(200));
-  EXPECT_EQ(node.device->stopped, 1) << "by a child that was left";
-}
-
 /// It shows what it is and what it can do, and lives for its session to see.
 TEST(Guardian, ProvesItselfAndLives) {
   const Guarded node;

@@ -31,7 +31,6 @@ inline constexpr double force_age_s = 0.010;       ///< a computed force that is
 inline constexpr double pose_age_s = 0.010;        ///< without a new pose for this time the force counts as zero
 inline constexpr double link_force_age_s = 0.020;  ///< a written force that is not renewed counts as zero in the link
 inline constexpr double stall_s = 0.100;           ///< a fault if a force, pose or tick is later
-inline constexpr double untaken_s = 0.200;         ///< a fault if no force can be sent to a ready device for this time
 inline constexpr double refusal_s = 0.050;         ///< a fault if a device refuses every force for this time
 inline constexpr double guardian_s = 0.5;          ///< a fault if the guardian shows no sign of life for this time
 inline constexpr double heartbeat_s = 2.0;         ///< a fault if the controlling thread is silent for this time

@@ -99,8 +99,7 @@ void FakeWoodenHaptics::make_report(double now) {
     report[7] = static_cast<std::uint8_t>((faults.fourth_encoder >> 8) & 0xff);
   }
   if (size != 8) report[12] = button_latched_ || faults.button_pressed ? 1 : 0;
-  waits_for_output_ = !faults.speaks_unasked;
-  if (faults.speaks_unasked) next_report_ = now + 1e-3;
+  waits_for_output_ = true;
   ++reports_;
   const auto nth = [&](int every) { return every > 0 && reports_ % static_cast<std::uint64_t>(every) == 0; };
   if (nth(faults.drop_every)) return;

@@ -32,7 +32,6 @@ struct FakeWoodenHapticsFaults {
   int drop_every = 0;       ///< every n-th report is lost
   int garble_every = 0;     ///< every n-th report has all its bytes changed
   bool impossible_pose = false;
-  bool speaks_unasked = false;  ///< reports each millisecond, whether it is written to or not
   bool button_pressed = false;  ///< the calibration button, held down
   int fourth_encoder = 0;       ///< counts; a button on the stylus adds 10000
 };

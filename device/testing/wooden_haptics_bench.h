@@ -16,11 +16,9 @@ struct WoodenHapticsBench {
   FakeWoodenHaptics arm;
   std::unique_ptr<LinkStylus> stylus;
 
-  explicit WoodenHapticsBench(const FakeWoodenHapticsOptions& options = {}, double (*asleep)() noexcept = time_asleep)
-      : arm(options) {
+  explicit WoodenHapticsBench(const FakeWoodenHapticsOptions& options = {}) : arm(options) {
     LinkStylusOptions link_options;
     link_options.threaded = false;
-    link_options.asleep = asleep;
     stylus = make_wooden_haptics_on(
         options.arm, [this] { return std::make_unique<FakeHidLink>(arm, bench); }, link_options);
   }

@@ -94,21 +94,6 @@ TEST_F(TouchCalibration, ItsEncodersAreResetOnlyWhenTheyMay) {
   EXPECT_EQ(hd->updates, 1) << "it has its zero";
 }
 
-/// The library's last words of a session are no news of the next one.
-TEST_F(TouchCalibration, OpenedAnewItKnowsNoErrorOfBefore) {
-  const auto stylus = unthreaded();
-  stylus->open();
-  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
-  hd->error = 0x302;  // in a round that is not taken any more
-  pass(0.01);
-  stylus->close();
-  hd->error = 0;
-  stylus->open();
-  stylus->service(0);
-  EXPECT_EQ(stylus->fault(), LinkFault::none);
-  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
-}
-
 TEST_F(TouchCalibration, AResetThatFailsIsSaid) {
   hd->styles = 1;
   hd->calibration = 0x5002;

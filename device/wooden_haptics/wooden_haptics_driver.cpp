@@ -121,8 +121,6 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
 
 void WoodenHapticsProtocol::take(const std::array<int, 3>& counts, double now) noexcept {
   if (status_.state == State::fault) return;
-  // Its counters are about to be set, wherever the arm is: the pose would move under the hand.
-  if (button_ && status_.state == State::idle) return fail(LinkFault::unhomed);
   if (!calibrated_ || button_) {
     if (exchange_.is_current()) ++status_.news;
     status_.state = State::homing;
