@@ -28,6 +28,8 @@ class GivenForce {
   OnDevice on_device() const noexcept { return on_device_; }
   /// s since the device began to refuse every force.
   double refused_for(double now) const noexcept { return refuses_ ? now - taken_time_ : 0; }
+  /// s since the device last took a force, or a zero in its place.
+  double untaken_for(double now) const noexcept { return now - taken_time_; }
   /// N
   const Vec3& given() const noexcept { return given_; }
 
@@ -42,7 +44,7 @@ class GivenForce {
   bool zero_given_ = false;
   std::uint64_t zero_news_ = 0;  // poses when the first zero in a row was given
   bool refuses_ = false;
-  double taken_time_ = 0;  // s: when the device last did not refuse
+  double taken_time_ = 0;  // s: when the device last took a force
 };
 
 }  // namespace palpate::device

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "device/link/lock_step.h"
 #include "device/testing/link_bench.h"
 #include "device/testing/test_files.h"
 
@@ -225,6 +226,25 @@ TEST(GivenForce, ADeviceThatRefusesEveryForceIsAFault) {
     bench.answer = ForceAnswer::taken;
     push(bench, *stylus, 0, 0.01);
     EXPECT_EQ(stylus->on_device(), OnDevice::zero_taken);
+  }
+}
+
+/// Good poses do not hide that no force can be sent. The longest pause of a link in lock-step is no fault: it waits for
+/// an answer, and then for a lost one.
+TEST(GivenForce, ADeviceThatTakesNoForceIsAFault) {
+  const double pause_s = LockStepTimes{}.overdue + LockStep::longest_way;
+  for (const double waits_s : {pause_s, ceiling::stall_s - 2 * tick_s, 0.2}) {
+    LinkBench bench;
+    const auto stylus = unthreaded(bench);
+    push(bench, *stylus, 3, 0.5);
+    bench.answer = ForceAnswer::waiting;
+    push(bench, *stylus, 3, waits_s);
+    const bool is_fault = waits_s > ceiling::stall_s;
+    EXPECT_EQ(stylus->fault(), is_fault ? LinkFault::forces_refused : LinkFault::none) << waits_s;
+    EXPECT_EQ(stylus->on_device(), OnDevice::pushing);
+    bench.answer = ForceAnswer::taken;
+    push(bench, *stylus, 3, 0.5);
+    EXPECT_EQ(bench.force, is_fault ? Vec3(0) : Vec3(0, 3, 0)) << waits_s;
   }
 }
 

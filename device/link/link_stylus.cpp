@@ -233,7 +233,13 @@ void LinkStylus::give(double now, bool closing) noexcept {
   const OnDevice on_device = given_.while_giving(force, news);
   if (guardian_) guardian_->beat(on_device);
   given_.answered(driver_->give(options_.signs.force * force), force, news, now);
-  if (given_.refused_for(now) > ceiling::refusal_s) fail(LinkFault::forces_refused);
+  if (specification_.force_axes > 0 && takes_nothing(now)) fail(LinkFault::forces_refused);
+}
+
+bool LinkStylus::takes_nothing(double now) const noexcept {
+  // A driver may wait for a lost answer (LockStep), but not for as long as that. A link on which every write fails
+  // waits for ever, and the device holds its last force.
+  return given_.refused_for(now) > ceiling::refusal_s || given_.untaken_for(now) > ceiling::stall_s;
 }
 
 void LinkStylus::judge_rate(double now) noexcept {

@@ -69,6 +69,7 @@ class LinkStylus final : public Stylus {
   void connect();
   void give(double now, bool closing) noexcept;
   bool withholds(double now, bool closing) const noexcept;
+  bool takes_nothing(double now) const noexcept;
   void fail(LinkFault fault) noexcept;
   void send_zeros() noexcept;
   bool may_push_on() const noexcept;

@@ -22,7 +22,7 @@ enum class LinkFault : std::uint8_t {
   unhomed,
   held_up,         ///< this process was stopped, or its thread was delayed
   slept,           ///< the machine was suspended
-  forces_refused,  ///< the device accepts forces but does not exert them
+  forces_refused,  ///< the device takes no forces, or does not exert them
   own_safety,      ///< the device's own safety took the force away
   foreign_force,   ///< a force acts on it that this program did not send
   unguarded        ///< the guardian ended or does not respond

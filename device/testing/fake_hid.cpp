@@ -16,7 +16,7 @@ std::size_t FakeHidLink::receive(std::span<std::uint8_t> packet, double timeout)
 }
 
 bool FakeHidLink::send(std::span<const std::uint8_t> packet) noexcept {
-  if (bench_.unplugged) return false;
+  if (bench_.unplugged || !bench_.takes) return false;
   device_.write(packet, bench_.time);
   return true;
 }

@@ -41,6 +41,7 @@ class FakeHid {
 struct FakeHidBench {
   double time = 0;
   bool unplugged = false;
+  bool takes = true;  ///< whether reports can be written
 };
 
 /// On a clock that advances only during waits.

@@ -73,7 +73,7 @@ std::optional<std::size_t> FakeWoodenHaptics::read(std::span<std::uint8_t> repor
     force_ = Vec3(0);
   }
   if (faults.silent) return std::nullopt;
-  if (!waits_for_output_ && now >= next_report_) make_report(now);
+  if ((faults.speaks_on || !waits_for_output_) && now >= next_report_) make_report(now);
   if (to_host_.empty() || to_host_.front().ready > now) return std::nullopt;
   const std::vector<std::uint8_t> made = std::move(to_host_.front().bytes);
   to_host_.pop_front();
@@ -100,6 +100,7 @@ void FakeWoodenHaptics::make_report(double now) {
   }
   if (size != 8) report[12] = button_latched_ || faults.button_pressed ? 1 : 0;
   waits_for_output_ = true;
+  if (faults.speaks_on) next_report_ = now + 1e-3;
   ++reports_;
   const auto nth = [&](int every) { return every > 0 && reports_ % static_cast<std::uint64_t>(every) == 0; };
   if (nth(faults.drop_every)) return;

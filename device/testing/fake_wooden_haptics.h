@@ -31,6 +31,7 @@ struct FakeWoodenHapticsFaults {
   int short_every = 0;      ///< every n-th report is cut to 5 bytes
   int drop_every = 0;       ///< every n-th report is lost
   int garble_every = 0;     ///< every n-th report has all its bytes changed
+  bool speaks_on = false;   ///< it sends a report each millisecond, answered or not
   bool impossible_pose = false;
   bool button_pressed = false;  ///< the calibration button, held down
   int fourth_encoder = 0;       ///< counts; a button on the stylus adds 10000

@@ -72,6 +72,24 @@ TEST(WoodenHapticsDriver, FaultsEndInZeros) {
   EXPECT_FALSE(closed.is_pushing());
 }
 
+/// Its reports go on while every write to it fails: a fault before its own watchdog ends the force.
+TEST(WoodenHapticsDriver, AnArmThatTakesNoForcesIsAFault) {
+  Bench bench;
+  bench.home();
+  bench.arm.faults.speaks_on = true;
+  bench.run(0.1, Vec3(0, 1, 0));
+  bench.bench.takes = false;
+  bench.run(ceiling::stall_s - 0.01, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->fault(), LinkFault::none);
+  bench.run(0.02, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->fault(), LinkFault::forces_refused);
+  EXPECT_TRUE(bench.is_pushing()) << "nobody can reach it";
+  EXPECT_NE(bench.stylus->on_device(), OnDevice::zero_taken) << "so its guardian is told to";
+  bench.bench.takes = true;
+  bench.run(0.01, Vec3(0, 1, 0));
+  EXPECT_FALSE(bench.is_pushing());
+}
+
 TEST(WoodenHapticsDriver, ADeviceThatDoesNotAnswerIsRefused) {
   Bench bench;
   bench.arm.faults.silent = true;
