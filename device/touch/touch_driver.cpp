@@ -127,6 +127,8 @@ void TouchDriver::connect() {
   hd_->enable(hd::max_force_clamping);
   hd_->enable(hd::force_ramping);
   throw_error(say("touch-has-no-forces"));
+  // Nothing calls back yet. What is posted is of the session before, and so may be its error.
+  drop_posts();
   force_.store(Vec3(0));
   unrenewed_ = callbacks_without_force;
   called_ = clock_.now();
@@ -206,14 +208,19 @@ void TouchDriver::look_at_calibration(bool is_pushing) noexcept {
 
 void TouchDriver::take(double timeout) noexcept {
   timespec until{};
-  clock_gettime(CLOCK_REALTIME, &until);
+  // Not by the wall clock, which may be set meanwhile.
+  clock_gettime(CLOCK_MONOTONIC, &until);
   const auto end = static_cast<std::int64_t>(until.tv_nsec) + static_cast<std::int64_t>(timeout * 1e9);
   until.tv_sec += end / 1'000'000'000;
   until.tv_nsec = static_cast<long>(end % 1'000'000'000);
-  if (sem_timedwait(&sampled_, &until) != 0) return;
+  if (sem_clockwait(&sampled_, CLOCK_MONOTONIC, &until) != 0) return;
+  drop_posts();
+  follow(sample_.load());
+}
+
+void TouchDriver::drop_posts() noexcept {
   while (sem_trywait(&sampled_) == 0) {
   }
-  follow(sample_.load());
 }
 
 void TouchDriver::follow(const Sample& sample) noexcept {

@@ -52,6 +52,7 @@ class TouchDriver final : public Driver {
   static unsigned on_schedule(void* self);
   Sample exchange() noexcept;
   void read_model();
+  void drop_posts() noexcept;
   void follow(const Sample& sample) noexcept;
   void choose_calibration();
   void look_at_calibration(bool is_pushing) noexcept;

@@ -2,10 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <semaphore.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
@@ -15,6 +18,19 @@
 #include "device/link/realtime.h"
 #include "device/testing/test_files.h"
 #include "device/testing/touch_fixture.h"
+
+namespace {
+
+bool wall_clock_is_set_ahead = false;
+
+}  // namespace
+
+/// In place of libc's: a wait by a wall clock that is set ahead meanwhile is over at once.
+extern "C" int sem_timedwait(sem_t* semaphore, const timespec* until) {
+  if (!wall_clock_is_set_ahead) return sem_clockwait(semaphore, CLOCK_REALTIME, until);
+  errno = ETIMEDOUT;
+  return -1;
+}
 
 namespace palpate::device {
 namespace {
@@ -254,6 +270,32 @@ TEST_F(Touch, OpenedAnewAfterAFaultItIsAsNew) {
   hd->calibration = 0x5000;
   EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
   EXPECT_EQ(stylus->fault(), LinkFault::none);
+}
+
+/// What the library called back with after the last exchange of a session is not the next session's.
+TEST_F(Touch, AnErrorOfTheSessionBeforeIsNotToldAsNew) {
+  const auto stylus = unthreaded();
+  stylus->open();
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+  hd->error = 0x302;
+  ASSERT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return stylus->fault() == LinkFault::unplugged; }));
+  pass(0.003);
+  stylus->close();
+  hd->error = 0;
+  stylus->open();
+  stylus->service(0);  // before the library calls back
+  EXPECT_EQ(stylus->fault(), LinkFault::none);
+  EXPECT_TRUE(comes(*stylus, Vec3(0, 1, 0), [&] { return acting() == Vec3(0, 1, 0); }));
+}
+
+TEST_F(Touch, WaitsAsLongAsItIsToldThoughTheWallClockIsSet) {
+  TouchDriver driver(TouchSettings{}, DriverClock{&impatient_now, &pass});
+  driver.connect();
+  wall_clock_is_set_ahead = true;
+  const double begun = monotonic_time();
+  driver.take(0.02);
+  EXPECT_GE(monotonic_time() - begun, 0.02);
+  wall_clock_is_set_ahead = false;
 }
 
 TEST_F(Touch, ADriverThatIsDroppedLetsGoOfItsDevice) {
