@@ -60,6 +60,7 @@ std::array<int, 3> wooden_haptics_currents(const WoodenHapticsSettings& settings
 
 /// The stylus is not open yet. open() throws std::runtime_error naming the device and what to do. The state is
 /// State::homing, without force, until the user has put the arm into its home pose and pressed its calibration button.
+/// Pressed later, the button is the fault LinkFault::unhomed.
 /// Firmware of 2016 reports no button: the pose in which the arm is opened counts as the home pose.
 std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings);
 

@@ -22,6 +22,7 @@ constexpr int button_pressed = 1;
 // added to its counts, and a gimbal has fewer than 5000.
 constexpr int pressed_counts = 5000;
 constexpr double start_time = 0.010;  // s of silence after which the firmware waits for us
+constexpr double bounce_time = 0.1;   // s: pressed again so soon after the homing, its button bounced in the home pose
 // An arm is in reach of its origin; its home pose lies outside the workspace.
 constexpr double reach_in_radii = 3;
 
@@ -113,6 +114,7 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
     if (button_ && !pressed) {
       calibrated_ = true;
       offset_ = {};
+      homed_ = now;
     }
     button_ = pressed;
   }
@@ -121,6 +123,8 @@ void WoodenHapticsProtocol::receive(std::span<const std::uint8_t> packet, double
 
 void WoodenHapticsProtocol::take(const std::array<int, 3>& counts, double now) noexcept {
   if (status_.state == State::fault) return;
+  // The counters are set under the hand, wherever it is. In mid-session that is no home.
+  if (button_ && status_.state == State::idle && now - homed_ > bounce_time) return fail(LinkFault::unhomed);
   if (!calibrated_ || button_) {
     if (exchange_.is_current()) ++status_.news;
     status_.state = State::homing;
@@ -165,6 +169,7 @@ std::size_t WoodenHapticsProtocol::step(const Vec3& force, double now, std::span
   const bool is_current = report_size_ != 0 && exchange_.is_current();
   status_.withheld = !is_current || button_ || status_.state != State::idle;
   if (is_current && button_) {
+    // In a fault, too: that clears the latch, so that the next session does not take it for a press in the home pose.
     put_word(packet, 3, set_encoders);
     for (std::size_t i = 0; i < 3; ++i) put_word(packet, 4 + i, settings_.home_counts[i]);
   } else if (is_current && status_.state == State::idle) {

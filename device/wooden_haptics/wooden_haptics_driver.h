@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "device/link/hid.h"
@@ -40,7 +41,8 @@ class WoodenHapticsProtocol final : public Protocol {
   std::size_t report_size_ = 0;  // 0: not known yet
   std::array<int, 3> offset_{};
   bool calibrated_ = false;
-  bool button_ = false;  // the calibration button's latch in the last report
+  bool button_ = false;                                      // the calibration button's latch in the last report
+  double homed_ = -std::numeric_limits<double>::infinity();  // s: when its button was last let go
   Vec3 angles_{0};
   PoseDoubt doubt_{0.25};  // reports have no checksum: many impossible ones mean that others are wrong, too
   /// The firmware waits for an output after each report. If it does not wait, the newest report is current.

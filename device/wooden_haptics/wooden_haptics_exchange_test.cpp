@@ -104,8 +104,43 @@ TEST(WoodenHapticsExchange, TheButtonSetsTheCounters) {
             1e-12);
   EXPECT_EQ(arm.protocol.status().news, 5U) << "each report tells that it lives";
   arm.report({12, -345, 6000}, 1);
-  EXPECT_EQ(arm.state(), State::homing) << "and again whenever it is pressed";
+  EXPECT_EQ(arm.state(), State::homing) << "and again when it bounces";
   EXPECT_EQ(arm.answer(Vec3(1))[0], 0);
+}
+
+/// In mid-session its counters would be set under the hand, wherever it is. So its home is lost. It is told the home's
+/// counts all the same, which clears the latch of its button: opened again, it waits for another press.
+TEST(WoodenHapticsExchange, TheButtonInMidSessionIsALostHome) {
+  Arm arm;
+  arm.calibrate();
+  const auto hold = [&](int reports) {
+    for (int n = 0; n < reports; ++n) {
+      arm.report({0, 0, 6000});
+      arm.answer(Vec3(0, 1, 0));
+    }
+  };
+  hold(95);
+  arm.report({0, 0, 6000}, 1);
+  EXPECT_EQ(arm.state(), State::homing) << "so soon it is a bounce";
+  arm.answer();
+  hold(101);
+  EXPECT_EQ(arm.state(), State::idle);
+  const Vec3 before = arm.protocol.status().position;
+  arm.report({0, 0, 6000}, 1);
+  EXPECT_EQ(arm.state(), State::fault);
+  EXPECT_EQ(arm.protocol.status().fault, LinkFault::unhomed);
+  EXPECT_EQ(arm.answer(Vec3(0, 1, 0)), (std::vector<int>{0, 0, 0, 1, 0, 0, 6000}));
+  for (int n = 0; n < 300; ++n) {
+    arm.report({0, 0, 0});
+    EXPECT_EQ(arm.state(), State::fault);
+    EXPECT_EQ(arm.answer(Vec3(0, 1, 0)), std::vector<int>(7, 0));
+  }
+  EXPECT_EQ(arm.protocol.status().position, before);
+  arm.protocol.disconnected(false);
+  ReportingLink link;
+  link.reports = {report_of({0, 0, 0})};
+  arm.protocol.connect(link);
+  EXPECT_EQ(arm.state(), State::homing);
 }
 
 /// Only 8, 14 and 64 bytes are reports, and of an arm only those of its first report's length.

@@ -187,11 +187,33 @@ TEST(WoodenHapticsDriver, OffersZerosOfBothLengthsToAFirmwareThatWaits) {
   }
 }
 
+/// Its counters were set under the hand: no force before the user has homed it again.
+TEST(WoodenHapticsDriver, ItsButtonInMidSessionIsAFault) {
+  FakeWoodenHapticsOptions options;
+  options.path = {{0.3, {0, 0, 0}}, {0.5, {0.04, -0.03, 0.03}}};
+  Bench bench(options);
+  bench.home();
+  bench.run(0.6, Vec3(0, 1, 0));
+  ASSERT_TRUE(bench.is_pushing());
+  bench.arm.faults.button_pressed = true;
+  bench.run(0.005, Vec3(0, 1, 0));
+  bench.arm.faults.button_pressed = false;
+  bench.run(0.5, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->fault(), LinkFault::unhomed);
+  EXPECT_FALSE(bench.is_pushing());
+  bench.stylus->open();
+  bench.run(0.5, Vec3(0, 1, 0));
+  EXPECT_EQ(bench.stylus->state(), State::homing);
+  EXPECT_FALSE(bench.is_pushing());
+}
+
 /// Its counters began anew, and its button was down: that it is up now does not mean that it was pressed since.
 TEST(WoodenHapticsDriver, AButtonThatWasDownWhenItWasUnpluggedHomesNothing) {
-  Bench bench;
-  bench.home();
+  FakeWoodenHapticsOptions options;
+  options.button_time = 60;
+  Bench bench(options);
   bench.arm.faults.button_pressed = true;
+  bench.stylus->open();
   bench.run(0.05);
   ASSERT_EQ(bench.stylus->state(), State::homing);
   bench.bench.unplugged = true;
