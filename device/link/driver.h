@@ -28,6 +28,9 @@ class Driver {
   virtual void connect() = 0;
   /// Called after the zeros have been given. May be called without connect().
   virtual void disconnect() noexcept = 0;
+  /// The device may have been switched off meanwhile: if it does not know its home by itself, it is to be homed again.
+  /// May be called while it is not connected.
+  virtual void forget_home() noexcept {}
   /// s, never decreasing; only while connected.
   virtual double now() noexcept = 0;
   /// Takes the newest pose into status(), waiting for one at most `timeout` s.

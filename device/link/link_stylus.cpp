@@ -127,6 +127,8 @@ void LinkStylus::open() {
 
 void LinkStylus::connect() {
   if (guardian_) guardian_->prove(options_.guardian_patience);
+  // While it was open, or closed: a machine that sleeps may switch the device's power off.
+  if (options_.asleep() - asleep_ > shortest_sleep) driver_->forget_home();
   driver_->connect();
   if (!guardian_) return;
   try {
@@ -206,6 +208,7 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   if (now - news_time_ > driver_->longest_silence()) {
     fail(LinkFault::silent);
     given_.doubt();
+    driver_->forget_home();
   }
   judge_rate(now);
   judge_guardian(now);

@@ -21,6 +21,7 @@ class PacketDriver final : public Driver {
 
   void connect() override;
   void disconnect() noexcept override;
+  void forget_home() noexcept override { protocol_->forget_home(); }
   double now() noexcept override { return link_->now(); }
   void take(double timeout) noexcept override;
   ForceAnswer give(const Vec3& force) noexcept override;

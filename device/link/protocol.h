@@ -55,6 +55,8 @@ class Protocol {
   virtual void connect(Link& link) = 0;
   /// Called before the link is closed. `lost`: the device is gone already.
   virtual void disconnected(bool /*lost*/) noexcept {}
+  /// As Driver::forget_home().
+  virtual void forget_home() noexcept {}
   /// A packet that arrived.
   virtual void receive(std::span<const std::uint8_t> packet, double now) noexcept = 0;
   /// After all packets that arrived: the packet to send now (its size; 0 if none is due), for this force (N).

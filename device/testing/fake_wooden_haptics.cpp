@@ -138,6 +138,14 @@ void FakeWoodenHaptics::write(std::span<const std::uint8_t> report, double now) 
   waits_for_output_ = false;
 }
 
+void FakeWoodenHaptics::switch_off_and_on() {
+  zero_ = true_counts();
+  button_latched_ = waits_for_output_ = false;
+  to_host_.clear();
+  milliamperes_ = {};
+  force_ = Vec3(0);
+}
+
 bool FakeWoodenHaptics::is_pushing(double now) const {
   return !watchdog_bites(now) && milliamperes_ != std::array<int, 3>{};
 }

@@ -45,6 +45,8 @@ class FakeWoodenHaptics final : public FakeHid {
   std::optional<std::size_t> read(std::span<std::uint8_t> report, double now) override;
   void write(std::span<const std::uint8_t> report, double now) override;
   bool is_pushing(double now) const override;
+  /// Its counters begin anew where the hand is.
+  void switch_off_and_on();
 
   FakeWoodenHapticsFaults faults;
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "device/testing/fake_wooden_haptics.h"
+#include "device/testing/link_bench.h"
 #include "device/wooden_haptics/wooden_haptics_driver.h"
 
 namespace palpate::device {
@@ -19,6 +20,7 @@ struct WoodenHapticsBench {
   explicit WoodenHapticsBench(const FakeWoodenHapticsOptions& options = {}) : arm(options) {
     LinkStylusOptions link_options;
     link_options.threaded = false;
+    link_options.asleep = &asleep;
     stylus = make_wooden_haptics_on(
         options.arm, [this] { return std::make_unique<FakeHidLink>(arm, bench); }, link_options);
   }

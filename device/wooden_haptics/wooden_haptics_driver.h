@@ -27,6 +27,7 @@ class WoodenHapticsProtocol final : public Protocol {
 
   void connect(Link& link) override;
   void disconnected(bool lost) noexcept override;
+  void forget_home() noexcept override { calibrated_ = keeps_home_ = false; }
   void receive(std::span<const std::uint8_t> packet, double now) noexcept override;
   std::size_t step(const Vec3& force, double now, std::span<std::uint8_t> packet) noexcept override;
   const ProtocolStatus& status() const noexcept override { return status_; }
@@ -50,7 +51,7 @@ class WoodenHapticsProtocol final : public Protocol {
   bool started_ = false;
   double sent_ = 0;
   std::array<SustainedLoad, 3> loads_;  // of the motors
-  bool keeps_home_ = false;             // it was closed but not unplugged: its counters went on counting
+  bool keeps_home_ = false;             // it was closed, and had power all the time: its counters went on counting
   int starts_ = 0;
 };
 

@@ -128,6 +128,34 @@ TEST(WoodenHapticsDriver, AnUnpluggedArmHasToBeHomedAgain) {
   EXPECT_FALSE(bench.is_pushing());
 }
 
+/// It may have had no power meanwhile: then its counters began anew, wherever the hand was.
+TEST(WoodenHapticsDriver, AnArmThatSleptOrWasSilentHasToBeHomedAgain) {
+  enum class Cause { slept, slept_after_another_fault, slept_while_it_was_closed, silent };
+  for (const Cause cause :
+       {Cause::slept, Cause::slept_after_another_fault, Cause::slept_while_it_was_closed, Cause::silent}) {
+    FakeWoodenHapticsOptions options;
+    options.path = {{0.5, {0, 0, 0}}, {0.8, {0.04, -0.03, 0.03}}};
+    Bench bench(options);
+    bench.stylus->open();
+    bench.run(1.2);
+    ASSERT_EQ(bench.stylus->state(), State::idle);
+    if (cause == Cause::slept_after_another_fault) bench.bench.time += 5;
+    if (cause == Cause::slept_while_it_was_closed) bench.stylus->close();
+    if (cause == Cause::silent) bench.arm.faults.silent = true;
+    if (cause != Cause::silent) asleep_s += 30;
+    if (cause != Cause::slept_while_it_was_closed) bench.run(0.2, Vec3(0, 1, 0));
+    const LinkFault faults[] = {LinkFault::slept, LinkFault::held_up, LinkFault::none, LinkFault::silent};
+    EXPECT_EQ(bench.stylus->fault(), faults[static_cast<int>(cause)]);
+    bench.arm.faults.silent = false;
+    bench.arm.switch_off_and_on();
+    bench.stylus->close();
+    bench.stylus->open();
+    bench.run(0.4, Vec3(0, 1, 0));
+    EXPECT_EQ(bench.stylus->state(), State::homing) << static_cast<int>(cause);
+    EXPECT_FALSE(bench.is_pushing()) << static_cast<int>(cause);
+  }
+}
+
 TEST(WoodenHapticsDriver, AnotherArmThanThePresetIsRefused) {
   FakeWoodenHapticsOptions options;
   options.report_size = 8;
