@@ -46,8 +46,9 @@ class Guardian {
 
   /// The device was closed in good order: the guardian leaves it alone and ends. If it does not end, it is killed.
   void dismiss() noexcept { end('q'); }
-  /// The device was lost, perhaps with its force on. The guardian goes on by itself until the device is back or the
-  /// user logs out, and sends zeros as soon as it is back.
+  /// The device was lost, perhaps with its force on. If it is there, it has its zeros when this returns, and no
+  /// guardian is left. If not, the guardian goes on by itself until the device is back or the user logs out, and sends
+  /// zeros as soon as it is back.
   void hand_over() noexcept { end('w'); }
   /// To be called in each exchange with the device, before a force is given to it; not after a device is lost.
   /// Wait-free.

@@ -118,8 +118,12 @@ int main(int count, char** arguments) {
   if (beat != nullptr) prove_and_prepare(device, *beat);
   const char word = wait_for_word(device, beat);
   if (word == 'q') return 0;
-  // The session waits for this process only, not for what goes on in its child.
-  if (word == 'w') return fork() != 0 || wait_for_device(device, login) ? 0 : 1;
+  if (word == 'w') {
+    // The session waits for this process, and may then open the device again. So one that is there is seen to first; a
+    // child waits for one that is not.
+    const bool zeroed = try_zero_force(device.kind, device.address);
+    return zeroed || fork() != 0 || wait_for_device(device, login) ? 0 : 1;
+  }
   const double begun = monotonic_time();
   const bool zeroed = send_zero_force(device.kind, device.address, asks_after);
   tell(false, device, zeroed, begun);

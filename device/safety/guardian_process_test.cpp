@@ -19,6 +19,7 @@
 #include <string>
 #include <thread>
 
+#include "device/safety/guardian.h"
 #include "device/testing/fake_libdrd.h"
 #include "device/testing/fake_libhd.h"
 #include "device/testing/haply_server.h"
@@ -146,6 +147,26 @@ TEST_F(GuardianOfProcess, WithoutAGuardianATouchKeepsItsForce) {
   while (waitpid(-1, nullptr, 0) > 0) {
   }
   EXPECT_GT(hd->force[1], 0) << "what the other tests see goes by the guardian alone";
+}
+
+/// The session may open the device again at once. One that is there has its zeros by then, and nobody else opens it.
+TEST_F(GuardianOfProcess, ADeviceThatIsThereIsZeroedBeforeTheSessionGoesOn) {
+  setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+  hd->force[1] = 1;
+  start_guardian({guardian_program(), "touch", ""})->hand_over();
+  EXPECT_EQ(hd->force[1], 0);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no child of it is left";
+}
+
+TEST_F(GuardianOfProcess, ADeviceThatIsGoneIsWaitedForWhileTheSessionGoesOn) {
+  setenv("PALPATE_LIBHD", PALPATE_FAKE_LIBHD, 1);
+  hd->force[1] = 1;
+  hd->present = 0;
+  start_guardian({guardian_program(), "touch", ""})->hand_over();
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), 0) << "a child of it waits";
+  EXPECT_EQ(hd->force[1], 1);
+  hd->present = 1;
+  EXPECT_TRUE(comes([&] { return hd->force[1] == 0; }));
 }
 
 TEST_F(GuardianOfProcess, StopsAForceDimensionWhoseSessionIsKilled) {
