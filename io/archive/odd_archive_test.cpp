@@ -264,60 +264,6 @@ TEST(OddArchive, ThatSendsWithoutEndIsBounded) {
             "more than 64 MiB came: fetch series by series, or allow more with --most-mib");
 }
 
-TEST(OddArchive, ACanceledFetchEndsSoon) {
-  OddArchive odd("without-end");
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_THROW(fetch(odd.archive(), {"1.2.3"}, odd.folder(), {},
-                     [&](const FetchProgress&) {
-                       return std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(300);
-                     }),
-               Cancelled);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
-  EXPECT_EQ(odd.entries(), 0U);
-}
-
-/// Also where it waits for the rest of a message part.
-TEST(OddArchive, ACanceledFetchEndsSoonInTheMidstOfAPart) {
-  for (const bool uses_get : {true, false}) {
-    OddArchive odd(uses_get ? "drips" : "drips-at-move");
-    odd.archive().uses_get = uses_get;
-    odd.archive().silence_s = 60;
-    const auto begin = std::chrono::steady_clock::now();
-    EXPECT_THROW(
-        fetch(odd.archive(), {"1.2.3"}, odd.folder(), {},
-              [&](const FetchProgress&) { return std::chrono::steady_clock::now() - begin < std::chrono::seconds(1); }),
-        Cancelled);
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << uses_get;
-    EXPECT_EQ(odd.entries(), 0U);
-  }
-}
-
-/// Also where the archive has called back and says nothing.
-TEST(OddArchive, ACanceledMoveEndsSoon) {
-  OddArchive odd("falls-silent-at-move");
-  odd.archive().uses_get = false;
-  odd.archive().silence_s = 60;
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_THROW(
-      fetch(odd.archive(), {"1.2.3"}, odd.folder(), {},
-            [&](const FetchProgress&) { return std::chrono::steady_clock::now() - begin < std::chrono::seconds(2); }),
-      Cancelled);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
-  EXPECT_EQ(odd.entries(), 0U);
-}
-
-TEST(OddArchive, ACanceledSendEndsSoon) {
-  const fs::path series = testing::made_series() / testing::ct;
-  OddArchive silent("silent-at-store");
-  silent.archive().silence_s = 60;
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_THROW(
-      send(silent.archive(), {fs::directory_iterator(series)->path()},
-           [&](std::size_t) { return std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(300); }),
-      Cancelled);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
-}
-
 // PS3.4 B.2.3: the archive has the file, and what it says of it is said.
 TEST(OddArchive, ThatTakesAFileWithAWarningIsQuoted) {
   const fs::path file = fs::directory_iterator(testing::made_series() / testing::ct)->path();

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <glm/geometric.hpp>
-#include <map>
 #include <set>
 
 #include "io/archive/testing/says.h"
@@ -15,36 +14,24 @@
 #include "io/structures/structure.h"
 #include "io/testing/file_bytes.h"
 #include "io/testing/outlined_scan.h"
+#include "io/testing/written_outline.h"
 
 namespace palpate::io {
 namespace {
 
 namespace fs = std::filesystem;
 using internal::TestFolder;
+using testing::expect_same_voxels;
 using testing::full_label;
+using testing::only_structure_in;
 using testing::says;
 using testing::scan_kind;
 using testing::ScanKind;
 using testing::Shape;
+using testing::tag_text;
 
 WriteOptions options() {
   return testing::by_test;
-}
-
-Structure only_structure_in(const fs::path& file) {
-  const StructureCatalogue found = find_structures(std::array{file});
-  if (found.structures.size() != 1) {
-    std::string why = "not one structure";
-    for (const SkippedFile& one : found.skipped) why += ": " + one.reason;
-    throw std::runtime_error(why);
-  }
-  return found.structures.front();
-}
-
-std::string tag_text(DcmItem& item, const DcmTagKey& key) {
-  OFString value;
-  item.findAndGetOFStringArray(key, value);
-  return value.c_str();
 }
 
 std::string refusal(const std::function<void()>& work) {
@@ -54,35 +41,6 @@ std::string refusal(const std::function<void()>& work) {
     return error.what();
   }
   return "no refusal";
-}
-
-/// The reader's field has every voxel's center on its side where the grid is at right angles: so it has read every
-/// voxel. On a tilted one it has their number and their center; pydicom has them all (outline_peers_test.cpp).
-void expect_same_voxels(const LabelImage& written, const Structure& read, bool is_straight) {
-  DistanceOptions distance;
-  distance.scan = &written.geometry;
-  const auto field = load_distance(read, distance);
-  const glm::ivec3& n = written.geometry.dimensions;
-  std::size_t inside = 0, wrong = 0;
-  Vec3 sum(0);
-  for (int k = 0; k < n.z; ++k) {
-    for (int j = 0; j < n.y; ++j) {
-      for (int i = 0; i < n.x; ++i) {
-        const bool was = written.inside[written.offset(i, j, k)] != 0;
-        const Vec3 at = written.geometry.to_patient(Vec3(i, j, k));
-        const bool is = field->sample(at).mm > 0;
-        wrong += was != is ? 1 : 0;
-        inside += was ? 1 : 0;
-        sum += was ? at : Vec3(0);
-      }
-    }
-  }
-  if (is_straight) {
-    EXPECT_EQ(wrong, 0U);
-  }
-  const StructureMeasures measures = measure(read);
-  EXPECT_EQ(measures.voxels, inside);
-  EXPECT_LT(glm::length(measures.centroid_mm - sum / static_cast<double>(inside)), 1e-6);
 }
 
 TEST(WriteSegmentation, IsReadVoxelForVoxelOnEveryGrid) {
@@ -204,76 +162,6 @@ TEST(WriteSegmentation, KeepsEveryCode) {
   }
 }
 
-/// A volume may be joined from several series: each image is referred to in its own.
-TEST(WriteStructure, RefersToEachImageInItsSeries) {
-  const TestFolder folder;
-  const Series scan = testing::write_scan(scan_kind("axial"), folder / "scan");
-  std::map<std::string, std::string> series_of;
-  for (std::size_t n = 0; n < scan.files.size(); ++n) {
-    DcmFileFormat file;
-    ASSERT_TRUE(file.loadFile(scan.files[n].c_str()).good());
-    ASSERT_TRUE(file.loadAllDataIntoMemory().good());
-    file.getDataset()->putAndInsertString(DCM_SeriesInstanceUID, n % 3 == 0 ? "1.2.77" : "1.2.78");
-    ASSERT_TRUE(file.saveFile(scan.files[n].c_str()).good());
-    series_of[tag_text(*file.getDataset(), DCM_SOPInstanceUID)] = tag_text(*file.getDataset(), DCM_SeriesInstanceUID);
-  }
-  const Shape ball = testing::shapes_in(scan.geometry).front();
-  StructureLabel label = full_label();
-  label.origin.reset();
-  write_segmentation(sample_labels(label, scan.geometry, ball.distance), scan, folder / "seg.dcm", options());
-  write_contours(trace_slices(label, scan.geometry, ball.distance), scan, folder / "rt.dcm", options());
-  const auto referred = [](DcmItem& in, const DcmTagKey& all, const DcmTagKey& images) {
-    std::map<std::string, std::string> found;
-    DcmItem *series = nullptr, *image = nullptr;
-    for (long s = 0; in.findAndGetSequenceItem(all, series, s).good(); ++s) {
-      for (long n = 0; series->findAndGetSequenceItem(images, image, n).good(); ++n) {
-        found[tag_text(*image, DCM_ReferencedSOPInstanceUID)] = tag_text(*series, DCM_SeriesInstanceUID);
-      }
-    }
-    return found;
-  };
-  DcmFileFormat seg, rt;
-  ASSERT_TRUE(seg.loadFile((folder / "seg.dcm").c_str()).good());
-  EXPECT_EQ(referred(*seg.getDataset(), DCM_ReferencedSeriesSequence, DCM_ReferencedInstanceSequence), series_of);
-  ASSERT_TRUE(rt.loadFile((folder / "rt.dcm").c_str()).good());
-  DcmItem *frame = nullptr, *study = nullptr;
-  ASSERT_TRUE(rt.getDataset()->findAndGetSequenceItem(DCM_ReferencedFrameOfReferenceSequence, frame).good());
-  ASSERT_TRUE(frame->findAndGetSequenceItem(DCM_RTReferencedStudySequence, study).good());
-  EXPECT_EQ(referred(*study, DCM_RTReferencedSeriesSequence, DCM_ContourImageSequence), series_of);
-}
-
-/// A frame of a multi-frame file is referred to by its number.
-TEST(WriteSegmentation, RefersToFramesOfOneFile) {
-  const TestFolder folder;
-  fs::create_directories(folder / "scan");
-  internal::TestImage image;
-  const std::vector<double> heights{0, 2, 4, 6};
-  image.edit = [&](DcmDataset& data) {
-    internal::put(data, DCM_FrameOfReferenceUID, "1.2.3.9");
-    internal::make_multi_frame(data, heights);
-    internal::repeat_pixels(data, heights.size());
-  };
-  internal::write(image, folder / "scan" / "all.dcm");
-  const Series scan = find_series(std::array{folder / "scan"}).series.at(0);
-  ASSERT_EQ(scan.geometry.dimensions.z, 4);
-  const LabelImage label = sample_labels(full_label(), scan.geometry, [](const Vec3& at) { return at.z - 1; });
-  write_segmentation(label, scan, folder / "seg.dcm", options());
-  expect_same_voxels(label, only_structure_in(folder / "seg.dcm"), true);
-  DcmFileFormat format;
-  ASSERT_TRUE(format.loadFile((folder / "seg.dcm").c_str()).good());
-  DcmItem *item = nullptr, *derivation = nullptr, *source = nullptr;
-  std::vector<std::string> numbers;
-  for (signed long f = 0;
-       format.getDataset()->findAndGetSequenceItem(DCM_PerFrameFunctionalGroupsSequence, item, f).good(); ++f) {
-    ASSERT_TRUE(item->findAndGetSequenceItem(DCM_DerivationImageSequence, derivation).good());
-    ASSERT_TRUE(derivation->findAndGetSequenceItem(DCM_SourceImageSequence, source).good());
-    numbers.push_back(tag_text(*source, DCM_ReferencedFrameNumber));
-  }
-  EXPECT_EQ(numbers, (std::vector<std::string>{"2", "3", "4"}));
-}
-
-/// Contours are felt where the shape is, but for what a straight line between lattice nodes leaves out. What they fill
-/// on each slice, holes too, is looked at by other programs: outline_peers_test.cpp.
 TEST(WriteContours, AreReadWhereTheShapeIsOnEveryGrid) {
   for (const ScanKind& kind : testing::scan_kinds()) {
     const TestFolder folder;
@@ -311,30 +199,6 @@ TEST(WriteContours, AreReadWhereTheShapeIsOnEveryGrid) {
       }
     }
   }
-}
-
-TEST(WriteContours, RefersToWhatWasCorrected) {
-  const TestFolder folder;
-  const Series scan = testing::write_scan(scan_kind("oblique"), folder / "scan");
-  const Shape ball = testing::shapes_in(scan.geometry).front();
-  write_contours(trace_slices(full_label(), scan.geometry, ball.distance), scan, folder / "first.dcm", options());
-  const StructureLabel read = label_of(only_structure_in(folder / "first.dcm"));
-  write_contours(trace_slices(read, scan.geometry, ball.distance), scan, folder / "second.dcm", options());
-  DcmFileFormat format;
-  ASSERT_TRUE(format.loadFile((folder / "second.dcm").c_str()).good());
-  DcmItem *item = nullptr, *study = nullptr, *series = nullptr, *image = nullptr;
-  for (const DcmTagKey& key : {DCM_PredecessorStructureSetSequence, DCM_SourceInstanceSequence}) {
-    ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(key, item).good());
-    EXPECT_EQ(tag_text(*item, DCM_ReferencedSOPInstanceUID), read.origin->instance);
-  }
-  ASSERT_TRUE(format.getDataset()->findAndGetSequenceItem(DCM_ReferencedFrameOfReferenceSequence, item).good());
-  ASSERT_TRUE(item->findAndGetSequenceItem(DCM_RTReferencedStudySequence, study).good());
-  ASSERT_TRUE(study->findAndGetSequenceItem(DCM_RTReferencedSeriesSequence, series).good());
-  std::size_t images = 0;
-  while (series->findAndGetSequenceItem(DCM_ContourImageSequence, image, static_cast<signed long>(images)).good()) {
-    ++images;
-  }
-  EXPECT_EQ(images, scan.files.size());
 }
 
 TEST(WriteStructure, RefusesInWordsAndLeavesNothing) {
