@@ -126,22 +126,13 @@ void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code) {
   put_code(*inner, code);
 }
 
-namespace {
-
-bool is_urn(const Code& code) {
-  return code.value.starts_with("urn:") || code.value.find("://") != std::string::npos;
-}
-
-}  // namespace
-
-bool is_long(const Code& code) {
-  constexpr std::size_t longest_short_string = 16;
-  return code.value.size() > longest_short_string || is_urn(code);
-}
-
 void put_code(DcmItem& item, const Code& code) {
   // PS3.3 8.1: a value has one of three places.
-  const DcmTagKey place = is_urn(code) ? DCM_URNCodeValue : is_long(code) ? DCM_LongCodeValue : DCM_CodeValue;
+  constexpr std::size_t longest_short_string = 16;
+  const bool is_urn = code.value.starts_with("urn:") || code.value.find("://") != std::string::npos;
+  const DcmTagKey place = is_urn                                     ? DCM_URNCodeValue
+                          : code.value.size() > longest_short_string ? DCM_LongCodeValue
+                                                                     : DCM_CodeValue;
   for (const DcmTagKey& other : {DCM_CodeValue, DCM_LongCodeValue, DCM_URNCodeValue}) item.findAndDeleteElement(other);
   succeed(item.putAndInsertString(place, code.value.c_str()));
   succeed(item.putAndInsertString(DCM_CodingSchemeDesignator, code.scheme.c_str()));

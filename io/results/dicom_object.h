@@ -45,8 +45,6 @@ std::vector<SliceImage> images_of_slices(const Series& scan, const Geometry& geo
 void put_code(DcmItem& item, const DcmTagKey& sequence, const Code& code);
 /// The code of an item of such a sequence.
 void put_code(DcmItem& item, const Code& code);
-/// Whether its value does not fit into a short string: it is a long one, or a URN.
-bool is_long(const Code& code);
 
 /// Adds the shared attributes: patient and study, a new series and instance, equipment, dates, and the corrected
 /// object.

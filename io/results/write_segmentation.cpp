@@ -29,24 +29,18 @@ const Code& known(const Code& code) {
   return code.value.empty() || code.scheme.empty() || code.meaning.empty() ? tissue : code;
 }
 
-CodeSequenceMacro macro_of(const Code& code) {
-  const auto is_plain = [](const std::string& text) {
-    return text.size() <= 64 && std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
-  };
-  // put_codes() writes what DCMTK's classes take for wrong.
-  const bool takes_it = is_plain(known(code).meaning) && !is_long(known(code));
-  const Code& taken = takes_it ? known(code) : tissue;
-  return {taken.value.c_str(), taken.scheme.c_str(), taken.meaning.c_str()};
+/// DCMTK's classes refuse letters outside ASCII and long values: put_codes() writes the codes themselves.
+CodeSequenceMacro code_to_come() {
+  return {tissue.value.c_str(), tissue.scheme.c_str(), tissue.meaning.c_str()};
 }
 
 void add_segment(const StructureLabel& label, DcmSegmentation& document) {
   DcmSegment* made = nullptr;
-  succeed(DcmSegment::create(made, "1", macro_of(label.category), macro_of(label.type), DcmSegTypes::SAT_SEMIAUTOMATIC,
-                             "Palpate"));
+  succeed(DcmSegment::create(made, "1", code_to_come(), code_to_come(), DcmSegTypes::SAT_SEMIAUTOMATIC, "Palpate"));
   std::unique_ptr<DcmSegment> segment(made);
   succeed(segment->setSegmentDescription(not_a_device));
-  for (const Code& modifier : label.modifiers) {
-    segment->getSegmentedPropertyTypeModifierCode().push_back(new CodeSequenceMacro(macro_of(modifier)));
+  for (std::size_t n = 0; n < label.modifiers.size(); ++n) {
+    segment->getSegmentedPropertyTypeModifierCode().push_back(new CodeSequenceMacro(code_to_come()));
   }
   if (const auto rgb = rgb_of_color(label.color)) {
     const auto [l, a, b] = lab_of_rgb(*rgb);
@@ -57,7 +51,6 @@ void add_segment(const StructureLabel& label, DcmSegmentation& document) {
   segment.release();  // the document's
 }
 
-/// Meanings in UTF-8, and long values.
 void put_codes(const StructureLabel& label, DcmItem& segment) {
   const auto put = [](DcmItem& item, const DcmTagKey& sequence, const Code& code, long number) {
     DcmItem* found = nullptr;
