@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <string>
 
 #include "solver/text/message.h"
@@ -60,6 +61,8 @@ class Stylus {
   /// While state() is State::fault: what happened and what to do, in a sentence. Empty if it is not known. Not for the
   /// tick.
   virtual Text trouble() const { return {}; }
+  /// N: the largest force that it gives now, which falls while its motors are warm. For any thread.
+  virtual double allowed_force() const noexcept { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace palpate::device

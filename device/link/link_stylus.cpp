@@ -230,7 +230,9 @@ void LinkStylus::give(double now, bool closing) noexcept {
     wanted_ = force_.load();
   }
   const SustainedLimit limit{specification_.continuous_force, specification_.maximum_force};
-  const Vec3 force = given_.next(clamp_length(wanted_, load_.allowed(limit)), withholds(now, closing), now);
+  const double allowed = load_.allowed(limit);
+  allowed_force_.store(allowed, std::memory_order_relaxed);
+  const Vec3 force = given_.next(clamp_length(wanted_, allowed), withholds(now, closing), now);
   load_.add(limit, glm::length(force), now - exchange_time_);
   // Before the force is given: a program that is stopped in between is one that pushes.
   const OnDevice on_device = given_.while_giving(force, news);

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -54,6 +55,8 @@ class LinkStylus final : public Stylus {
 
   Text trouble() const override { return advice_for(fault()); }
 
+  double allowed_force() const noexcept override { return allowed_force_.load(std::memory_order_relaxed); }
+
   LinkFault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
   /// For the exchanging thread. After close() it is the last state of the device.
   OnDevice on_device() const noexcept { return given_.on_device(); }
@@ -88,6 +91,7 @@ class LinkStylus final : public Stylus {
   // Across the threads.
   Latest<Reading> reading_;
   Latest<Vec3> force_;
+  std::atomic<double> allowed_force_{std::numeric_limits<double>::infinity()};  // N, by the motors' heat
   // The exchanging thread's.
   double opened_ = 0;
   double exchange_time_ = 0;

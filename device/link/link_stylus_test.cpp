@@ -52,10 +52,13 @@ TEST(LinkStylus, GivesForLongNoMoreThanTheContinuousForce) {
   const auto stylus = unthreaded(bench);
   push(bench, *stylus, 8, 2.5);
   EXPECT_DOUBLE_EQ(bench.force.y, 8);
+  EXPECT_GT(stylus->allowed_force(), 8);
   push(bench, *stylus, 8, 20);
   EXPECT_NEAR(bench.force.y, 4, 0.05);
+  EXPECT_NEAR(stylus->allowed_force(), bench.force.y, 0.05) << "what it gives can be told";
   push(bench, *stylus, 3, 1);
   EXPECT_DOUBLE_EQ(bench.force.y, 3);
+  EXPECT_GT(stylus->allowed_force(), 4) << "the motors cool";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -198,6 +199,10 @@ std::optional<RecorderStatus> LiveSession::disconnect() noexcept {
     }
   }
   return end();
+}
+
+double LiveSession::allowed_force_n() const noexcept {
+  return stylus_ ? stylus_->allowed_force() : std::numeric_limits<double>::infinity();
 }
 
 void LiveSession::feel() noexcept {

@@ -96,6 +96,8 @@ class LiveSession {
   /// A problem with the stylus, in a sentence; empty if there is none (device::Stylus::trouble()).
   Text trouble() const { return stylus_ ? stylus_->trouble() : Text(); }
 
+  /// As Stylus::allowed_force(); infinite without a stylus.
+  double allowed_force_n() const noexcept;
   void feel() noexcept;     ///< ramps the force up
   void release() noexcept;  ///< lets the force fall to zero, where it stays until feel()
   /// The latest request, by feel(), release() or connect(). A cleared fault counts as release().

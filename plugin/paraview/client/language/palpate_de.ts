@@ -1881,6 +1881,10 @@ ID %2, Studie vom %3</translation>
         <translation>Fühlen: die Kraft ist an</translation>
     </message>
     <message>
+        <source>Feeling: the motors are warm, so the force is only %1 N</source>
+        <translation>Fühlen: Die Motoren sind warm, die Kraft beträgt nur %1 N</translation>
+    </message>
+    <message>
         <source>Feeling: forces are coming up</source>
         <translation>Fühlen: die Kraft steigt an</translation>
     </message>

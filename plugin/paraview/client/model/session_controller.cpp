@@ -362,7 +362,10 @@ void SessionController::poll() {
   status_.workspace = workspace_.at(tick);
   status_.probe_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.probe_m));
   status_.proxy_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.proxy_m));
-  status_.force_n = glm::length(vector_of(tick.sent_n));
+  const double sent_n = glm::length(vector_of(tick.sent_n)), allowed_n = live_.allowed_force_n();
+  status_.is_warm = sent_n > allowed_n;
+  status_.force_n = std::min(sent_n, allowed_n);
+  status_.peak_n = std::min(status_.peak_n, allowed_n);
   status_.missed = live_.missed();
   status_.homing = homing_;
   status_.trouble = QString::fromStdString(live_.trouble());

@@ -42,10 +42,11 @@ struct SessionStatus {
   std::string tissue;
   std::string held;                         ///< the boundary that holds the proxy, in words; empty if none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
-  double force_n = 0;                       ///< on the device, in the last tick
-  double peak_n = 0;                        ///< the largest since the last poll
-  double tick_us = 0;                       ///< median since the last poll
-  std::uint64_t missed = 0;                 ///< since the stylus was connected
+  double force_n = 0;        ///< on the device, in the last tick: below the tick's where its motors are warm
+  bool is_warm = false;      ///< the motors' heat limits the force
+  double peak_n = 0;         ///< the largest since the last poll
+  double tick_us = 0;        ///< median since the last poll
+  std::uint64_t missed = 0;  ///< since the stylus was connected
   bool clutched = false;
   bool feels = false;                         ///< forces were turned on, and not turned off since
   QString kept_off;                           ///< why the force is held back; empty: it is not

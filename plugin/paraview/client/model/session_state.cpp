@@ -50,6 +50,10 @@ StateLine state_line_of(const SessionStatus& look) {
               translated("Stopped: the stylus does not answer. Check its plug and power, then connect it again")};
   }
   const bool full = state_of(look.tick) == device::State::active;
+  if (look.feels && look.is_warm) {
+    return {SessionState::feeling,
+            translated("Feeling: the motors are warm, so the force is only %1 N").arg(look.force_n, 0, 'f', 1)};
+  }
   if (look.feels) {
     return {SessionState::feeling,
             full ? translated("Feeling: forces are on") : translated("Feeling: forces are coming up")};

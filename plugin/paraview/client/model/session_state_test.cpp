@@ -80,6 +80,17 @@ TEST(SessionState, AClutchedStylusIsReady) {
   EXPECT_TRUE(state_line_of(look).words.startsWith("Ready: clutched"));
 }
 
+/// Less acts than was asked for: the panel shows what acts, and says why.
+TEST(SessionState, WarmMotorsAreSaid) {
+  SessionStatus look = look_of(State::active, true);
+  look.is_warm = true;
+  look.force_n = 0.88;
+  EXPECT_EQ(state_line_of(look).state, SessionState::feeling);
+  EXPECT_EQ(state_line_of(look).words.toStdString(), "Feeling: the motors are warm, so the force is only 0.9 N");
+  look.feels = false;
+  EXPECT_NE(state_line_of(look).state, SessionState::feeling);
+}
+
 /// Whatever keeps the force off is said first; whether a fault has to be cleared, too, is told beside it.
 TEST(SessionState, WhatKeepsTheForceOffIsSaid) {
   for (const Fault fault : {Fault::none, Fault::tick_late}) {
