@@ -242,7 +242,8 @@ int Play::run(const std::string& client) {
   // sent.
   const bool was_opened = scenario_.name != "denied";
   const bool ended_well = should_die ? code > 128 : code == 0;
-  if (guardian != (should_die || is_replugged() ? 0 : -1)) {
+  // A session that closes a stylus which is back has waited for its guardian; one that closes before has not.
+  if (guardian != (should_die || scenario_.name == "replug_close" ? 0 : -1)) {
     outcome.complaint += " its guardian was left behind, or ended with " + std::to_string(guardian);
   }
   if (was_opened && scenario_.kind != "space_mouse" && glm::distance(outcome.strongest, asked_force) > 0.1) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The rules of stages.sh, on stages that are made here and take a second: what fails fails the run; what would begin too late is named, and the run
-# does not say that all passed; the other release is waited for, however late it is.
+# does not say that all passed; the other release is waited for, until CI would end all.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 stages=$PWD/plugin/testing/stages.sh
@@ -43,6 +43,9 @@ ends_with 0; says "looked at"; says_not "plugged in"; says "incomplete: usb"; sa
 
 run 0 'sleep 3; echo "other-release   9 s  trixie"' format other-release # it is waited for
 ends_with 0; says "9 s  trixie"
+
+run -418 'exec sleep 30' format other-release # but not until CI ends all
+ends_with 0; says "incomplete: other-release: not ended in time"; says "== what was run passed"
 
 run 0 'echo broken; exit 3' format other-release
 ends_with 1; says broken; says_not passed
