@@ -68,6 +68,7 @@ void Announcer::follow_session() {
   if (ticks != ticks_) {
     ticks_ = std::move(ticks);
     publisher_.set_ticks(ticks_);
+    if (const auto plan = session_.plan()) workspace_.set(plan->workspace);
     next_tick_ = 0;
     presses_ = {};
     is_new_ = true;
@@ -80,7 +81,10 @@ void Announcer::follow_session() {
 }
 
 void Announcer::announce_scene() {
-  if (const auto plan = session_.plan()) publisher_.set_workspace(session_.epoch(), plan->workspace);
+  if (const auto plan = session_.plan()) {
+    publisher_.set_workspace(session_.epoch(), plan->workspace);
+    workspace_.change_to(plan->workspace, session_.epoch());
+  }
   const std::string scene = modes::to_json(received_.with_names(session_.scene()));
   if (scene.size() <= longest_string) {
     offer("STRING", scene_name, string_content(scene), 0, true);
@@ -188,8 +192,9 @@ void Announcer::follow_marks() {
   for (next_tick_ = std::max(next_tick_, ticks_->oldest()); next_tick_ < ticks_->written(); ++next_tick_) {
     shares.clear();
     if (!ticks_->read(next_tick_, tick, &shares)) continue;
+    const modes::Workspace workspace = workspace_.at(tick);
     if ((tick.buttons & mark_button) == 0 && !presses_.is_down()) continue;
-    const glm::dvec3 proxy = session_.plan()->workspace.to_patient(vector_of(tick.proxy_m));
+    const glm::dvec3 proxy = workspace.to_patient(vector_of(tick.proxy_m));
     const auto made = presses_.take(
         {.tick = tick, .time_s = tick.time_s, .proxy_mm = proxy, .shares = shares, .scene = session_.scene()});
     const auto* const mark = made ? std::get_if<FeltMark>(&*made) : nullptr;

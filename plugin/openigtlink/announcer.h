@@ -18,6 +18,7 @@
 #include "plugin/openigtlink/received.h"
 #include "plugin/openigtlink/shapes.h"
 #include "plugin/recording/marks.h"
+#include "plugin/session/felt_workspace.h"
 
 namespace palpate::plugin::igtl {
 
@@ -63,6 +64,7 @@ class Announcer {
   bool is_new_ = true;                       // whether the session is new
   std::string last_state_;
   Clock::time_point next_status_, next_contact_;
+  FeltWorkspace workspace_;
   MarkPresses presses_;
   std::uint64_t next_tick_ = 0;
   Marks felt_;                // made with the stylus

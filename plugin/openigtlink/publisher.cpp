@@ -10,7 +10,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t velocity_ticks = 10;
-constexpr std::size_t workspaces_kept = 8;
 constexpr auto between_frames =
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / frames_per_s));
 
@@ -46,7 +45,7 @@ void Publisher::set_ticks(std::shared_ptr<const TickRing> ticks) {
   const std::lock_guard lock(mutex_);
   ticks_ = std::move(ticks);
   began_s_ = began_s;
-  workspaces_.clear();
+  first_epoch_.reset();
 }
 
 double Publisher::stamp_of(const TickRecord& tick) const {
@@ -56,8 +55,13 @@ double Publisher::stamp_of(const TickRecord& tick) const {
 
 void Publisher::set_workspace(std::uint32_t epoch, const modes::Workspace& workspace) {
   const std::lock_guard lock(mutex_);
-  workspaces_.emplace_back(epoch, workspace);
-  if (workspaces_.size() > workspaces_kept) workspaces_.pop_front();
+  if (first_epoch_) {
+    workspace_.change_to(workspace, epoch);
+  } else {
+    workspace_.set(workspace);
+    first_epoch_ = epoch;
+  }
+  last_epoch_ = epoch;
 }
 
 void Publisher::set_orientation(const std::optional<glm::dquat>& orientation) {
@@ -65,13 +69,9 @@ void Publisher::set_orientation(const std::optional<glm::dquat>& orientation) {
   orientation_ = orientation;
 }
 
-std::optional<modes::Workspace> Publisher::workspace_of(const TickRecord& tick) const {
-  for (std::size_t n = 0; n < workspaces_.size(); ++n) {
-    if (workspaces_[n].first != tick.scene_epoch) continue;
-    if (n == 0 || tick.change_part >= 1) return workspaces_[n].second;
-    return modes::between(workspaces_[n - 1].second, workspaces_[n].second, tick.change_part);
-  }
-  return std::nullopt;
+std::optional<modes::Workspace> Publisher::workspace_of(const TickRecord& tick) {
+  const bool is_known = first_epoch_ && tick.scene_epoch >= *first_epoch_ && tick.scene_epoch <= last_epoch_;
+  return is_known ? std::optional(workspace_.at(tick)) : std::nullopt;
 }
 
 std::optional<Bytes> Publisher::newest_frame() {

@@ -5,15 +5,14 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
 
-#include "modes/scene/workspace.h"
 #include "plugin/openigtlink/server.h"
+#include "plugin/session/felt_workspace.h"
 #include "plugin/session/tick_ring.h"
 
 namespace palpate::plugin::igtl {
@@ -32,7 +31,7 @@ class Publisher {
   // --- Any thread.
   /// The ticks of the running session; null: there is none. Forgets the workspaces of the previous one.
   void set_ticks(std::shared_ptr<const TickRing> ticks);
-  /// The workspace for ticks from this epoch on. Ticks of an unknown epoch are not sent.
+  /// The workspace for ticks from this epoch on. Ticks before the first one and after the last one are not sent.
   void set_workspace(std::uint32_t epoch, const modes::Workspace& workspace);
   void set_orientation(const std::optional<glm::dquat>& orientation);
   /// UTC, s since 1970, of a tick: the time stamp of its messages.
@@ -41,13 +40,15 @@ class Publisher {
  private:
   void run();
   std::optional<Bytes> newest_frame();
-  std::optional<modes::Workspace> workspace_of(const TickRecord& tick) const;
+  std::optional<modes::Workspace> workspace_of(const TickRecord& tick);
 
   Server& server_;
   mutable std::mutex mutex_;
   std::shared_ptr<const TickRing> ticks_;
-  double began_s_ = 0;                                                 // UTC, of the session's tick 0
-  std::deque<std::pair<std::uint32_t, modes::Workspace>> workspaces_;  // the latest few, by epoch
+  double began_s_ = 0;  // UTC, of the session's tick 0
+  FeltWorkspace workspace_;
+  std::optional<std::uint32_t> first_epoch_;
+  std::uint32_t last_epoch_ = 0;
   std::optional<glm::dquat> orientation_;
   std::atomic<bool> stop_{false};
   std::thread thread_;

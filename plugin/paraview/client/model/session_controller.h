@@ -18,7 +18,6 @@
 #include "modes/scene/workspace.h"
 #include "plugin/app/live_session.h"
 #include "plugin/app/stylus_choice.h"
-#include "plugin/paraview/client/model/felt_workspace.h"
 #include "plugin/paraview/client/model/mark_button.h"
 #include "plugin/paraview/client/model/mouse_hand.h"
 #include "plugin/paraview/client/model/new_ticks.h"
@@ -27,6 +26,7 @@
 #include "plugin/paraview/client/model/slow_work.h"
 #include "plugin/recording/marks.h"
 #include "plugin/report/nearest_structure.h"
+#include "plugin/session/felt_workspace.h"
 
 namespace palpate::plugin {
 

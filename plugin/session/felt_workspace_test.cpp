@@ -1,4 +1,4 @@
-#include "plugin/paraview/client/model/felt_workspace.h"
+#include "plugin/session/felt_workspace.h"
 
 #include <gtest/gtest.h>
 
