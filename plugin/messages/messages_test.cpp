@@ -138,6 +138,7 @@ constexpr std::array not_shown{
     NotShown{"left-the-server", of_paraview},
     NotShown{"paraview-session-ended", of_paraview},
     NotShown{"scan-is-still-being-read", of_paraview},
+    NotShown{"boundary-is-another-one", of_paraview},
     NotShown{"views-show-another-scan", of_paraview},
     NotShown{"no-place-outside-the-patient", of_paraview},
     NotShown{"this-series-could-not-be-read", of_paraview},

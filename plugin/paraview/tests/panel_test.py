@@ -243,6 +243,8 @@ SCENARIOS = [
     "what_is_to_be_known_is_said",
     "what_is_shared_is_what_is_felt",
     "a_color_is_chosen",
+    "a_color_for_a_boundary_that_went",
+    "what_keeps_the_scene_is_deleted",
     "keys_step_in_the_views",
     "a_dragged_node_is_felt",
     "profile_follows_an_edit",

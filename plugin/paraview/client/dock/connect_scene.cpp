@@ -1,3 +1,6 @@
+#include <pqApplicationCore.h>
+#include <pqServerManagerModel.h>
+
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/curves_section.h"
 #include "plugin/paraview/client/panel/profile_section.h"
@@ -8,6 +11,12 @@
 namespace palpate::plugin {
 
 void PanelParts::connect_scene() {
+  // What keeps scene and marks was deleted in the Pipeline Browser, and the scan is still there.
+  const auto reopen = [this] {
+    if (!kept.is_open() && readers.source() && scans.shown()) model.reopen();
+  };
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::sourceRemoved, &dock,
+                   reopen, Qt::QueuedConnection);
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) { layers.draw_boundaries(pace); });
   QObject::connect(column->tissues, &TissuesSection::scene_kept, &dock, [this] { unsaved.note_scene_saved(); });
   QObject::connect(column, &Column::boundaries_wanted, &dock, [this](bool on) { layers.boundaries.set_visible(on); });

@@ -45,6 +45,7 @@ void PanelParts::connect_session() {
                      const bool moved = seen.connected || std::exchange(followed, seen.tick.index) != seen.tick.index;
                      if (!layers.is_paused()) follow_stylus(seen, moved);
                    });
+  QObject::connect(&session, &SessionController::felt_scan_changed, &dock, [this] { layers.draw_boundaries(); });
   QObject::connect(&session, &SessionController::connection_changed, &dock, [this] {
     column->modes->refresh();
     servers.be_attentive(session.live().is_connected());

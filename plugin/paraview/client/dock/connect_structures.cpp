@@ -20,12 +20,12 @@ void PanelParts::show_structures(const ScanHandle& handle) {
   }
   // The server's own: a folder of this machine that has the same name may hold others.
   column->structures->set_scan(handle.volume, {});
-  served.get(reader, [this, handle](const auto& files, const QString& said) {
+  served.get(reader, [this](const auto& files, const QString& said) {
     column->structures->add(files, said);
     if (session.live().scan()) return;
     // A state's scene, which names a structure that was not here before.
     emit session.told({}, false);
-    show_frame(handle);
+    if (const ScanHandle* const shown = scans.shown()) show_frame(*shown);  // perhaps another frame by now
   });
 }
 

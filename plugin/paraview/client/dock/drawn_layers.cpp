@@ -24,6 +24,7 @@ DrawnLayers::DrawnLayers(OpenViews& views, SessionController& session, SceneMode
 }
 
 void DrawnLayers::draw_boundaries(Pace pace) {
+  if (session_.expects_scan()) return boundaries.set_felt({}, {}, {}, Pace::stepped);  // they are of the one before
   const LiveSession& live = session_.live();
   boundaries.set_felt(live.felt_scan(), scene_.scene(), live.plan(), pace);
 }

@@ -21,7 +21,8 @@ QString ScanModel::why_not_felt() const {
   if (!facts.seen) return words(say("no-view-shows-the-scan"));
   if (!facts.other.empty()) return words(say("another-scan-is-active-in-the-pipeline", facts.other, facts.name));
   const ScanHandle& scan = shown->scan;
-  if (const int frame = world_.frame_in_views(scan.frames); frame != scan.frame && !shown->coming) {
+  const bool is_followed = shown->coming && shown->coming->volume;  // loaded: it is felt as soon as the views show it
+  if (const int frame = world_.frame_in_views(scan.frames); frame != scan.frame && !is_followed) {
     return words(
         say("views-show-another-scan", scan.frame_in_words(frame).toStdString(), scan.frame_in_words().toStdString()));
   }

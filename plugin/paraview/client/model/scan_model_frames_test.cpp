@@ -73,10 +73,17 @@ TEST_F(ScanModelFollowed, TheLastFrameAskedForIsShown) {
 
 TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
   show("1", 5);
+  const auto apart = [this](int shown) {
+    const ScanHandle& felt = *model.shown();
+    return words(
+        say("views-show-another-scan", felt.frame_in_words(shown).toStdString(), felt.frame_in_words(0).toStdString()));
+  };
   world.time = 2;
   model.follow_time();
+  EXPECT_EQ(model.why_not_felt(), apart(2)) << "no force of frame 0 under the picture of frame 2";
   world.time = 4;
   model.follow_time();
+  EXPECT_EQ(model.why_not_felt(), apart(4));
   world.frames_.front()(voxels(), {});
   EXPECT_EQ(model.shown()->frame, 0) << "ParaView has gone on";
   world.frames_.back()({}, {});
@@ -86,8 +93,7 @@ TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
   EXPECT_EQ(model.message().text, QStringLiteral("frame 4 is not whole"));
   EXPECT_TRUE(model.message().problem);
   EXPECT_EQ(model.shown()->frame, 0);
-  EXPECT_EQ(model.why_not_felt(), words(say("views-show-another-scan", model.shown()->frame_in_words(4).toStdString(),
-                                            model.shown()->frame_in_words(0).toStdString())));
+  EXPECT_EQ(model.why_not_felt(), apart(4));
   world.time = 1;
   model.follow_time();
   world.frames_.back()(voxels(), {});

@@ -175,6 +175,15 @@ TEST_F(ScanModelFollowed, WhatIsDeletedWhileItsViewsAreMadeIsClosed) {
   EXPECT_TRUE(std::holds_alternative<in_views::Lost>(model.in_views()));
 }
 
+/// As where the folder of a state is gone.
+TEST_F(ScanModelFollowed, WhatCannotBeFetchedIsSaidToBeOutOfReach) {
+  show("1");
+  model.restore(model.shown()->of, Brought::by_state);
+  world.fetched_.back()({.said = QStringLiteral("the folder is gone")});
+  EXPECT_EQ(take_reported().back(), QStringLiteral("out of reach the folder is gone"));
+  EXPECT_EQ(model.why_not_felt(), QStringLiteral("the folder is gone"));
+}
+
 TEST_F(ScanModelFollowed, WhatUndoBringsBackIsFeltAgain) {
   show("1");
   const SeriesRef of = model.shown()->of;

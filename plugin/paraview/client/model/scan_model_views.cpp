@@ -102,12 +102,13 @@ void ScanModel::take_fetched(const ScanWorld::Fetch& answer) {
       return;
     }
   }
+  if (answer.volume && fetching.from_server && !world_.facts().in_pipeline) return lose();  // deleted meanwhile
   if (fetching.from_server || !answer.volume) {
     tell(message_.text.isEmpty() ? said : message_.text + QLatin1Char('\n') + said, !answer.volume);
   }
   if (!answer.volume) {
     set_in_views(in_views::OutOfReach{fetching.of, said});
-    if (fetching.from_server) emit out_of_reach(said);
+    emit out_of_reach(said);
     return;
   }
   take(handle_of(answer.of, answer.volume, answer.frame, answer.frames), fetching.brought);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/paraview/client/model/shown_mode.h"
 
 namespace palpate::plugin {
 namespace {
@@ -30,6 +31,11 @@ void SceneModel::open(const modes::Scene& scene) {
     opened_ = scene_;
   }
   edited_ = false;
+}
+
+void SceneModel::reopen() {
+  kept_.open(modes::to_json(scene_));
+  kept_.forget_steps();
 }
 
 std::optional<modes::Scene> SceneModel::kept() const {
@@ -86,7 +92,11 @@ void SceneModel::run(const Step& step) {
   if (step.kind == Step::Kind::text) return run_text(step);
   if (step.kind == Step::Kind::finish) return keep(step.what);
   modes::Scene scene = scene_;
-  step.change(scene);
+  try {
+    step.change(scene);
+  } catch (const std::exception& error) {
+    return tell(QString::fromUtf8(error.what()), step.told);
+  }
   if (waits_for(scene, step)) return;
   const QString why = take(scene, step.kind == Step::Kind::drag ? Pace::dragged : Pace::stepped);
   if (why.isEmpty() && step.kind == Step::Kind::edit) keep(step.what);
@@ -184,8 +194,8 @@ void SceneModel::edit(const QString& what, const Change& change, const Told& tol
 
 void SceneModel::edit_mode(const QString& what, std::size_t mode, std::function<void(modes::Mode&)> change,
                            const Told& told) {
-  const auto of_scene = [mode, change = std::move(change)](modes::Scene& scene) {
-    if (mode < scene.modes.size()) change(scene.modes[mode]);
+  const auto of_scene = [shown = ShownMode(scene_, mode), change = std::move(change)](modes::Scene& scene) {
+    change(scene.modes[shown.in(scene)]);
   };
   edit(what, of_scene, told);
 }

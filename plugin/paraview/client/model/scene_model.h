@@ -23,7 +23,8 @@ class SceneModel : public QObject {
   Q_OBJECT
 
  public:
-  /// May be called later, after other changes, and more than once: it must own its data.
+  /// May be called later, after other changes, and more than once: it must own its data. May throw with the reason why
+  /// the scene cannot be changed so.
   using Change = std::function<void(modes::Scene&)>;
   /// Passes a scene to the stylus, or throws with the reason why it cannot be felt.
   using Commit = std::function<void(const modes::Scene&, Pace)>;
@@ -66,13 +67,16 @@ class SceneModel : public QObject {
 
   /// Opens a completely different scene. Makes a place in the pipeline if there is none yet.
   void open(const modes::Scene& scene);
+  /// The place in the pipeline was deleted: makes another one, with the present scene. Undo would bring the deleted one
+  /// back beside it, so the steps until now are forgotten.
+  void reopen();
   /// A scene that the panel proposes itself; not a step that can be undone. Returns whether it was accepted.
   bool propose(const modes::Scene& scene);
   /// One step that can be undone; `what` names it in ParaView's menu. A refused change leaves the scene unchanged. The
   /// reason goes to `told`, which shows it beside the pressed button; without `told`, refused() reports it. The change
   /// is applied to the scene at the time when its turn comes, with all earlier changes.
   void edit(const QString& what, const Change& change, const Told& told = {});
-  /// The same for one mode, if the scene still has it when the change's turn comes.
+  /// The same for a mode of the present scene, wherever it is when the change's turn comes; refused if it is gone.
   void edit_mode(const QString& what, std::size_t mode, std::function<void(modes::Mode&)> change,
                  const Told& told = {});
   /// A change in progress, such as dragging a node. It is felt at once; of waiting ones only the newest is applied.

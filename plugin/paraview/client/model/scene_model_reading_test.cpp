@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "modes/scene/scene_json.h"
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/shown_mode.h"
 #include "plugin/paraview/client/model/testing/made_text.h"
 
 namespace palpate::plugin {
@@ -94,6 +96,41 @@ TEST_F(SceneModelReading, OneThatIsRefusedSaysWhyBesideTheButton) {
   EXPECT_THAT(named(), IsEmpty());
   EXPECT_THAT(told, ElementsAre("it cannot be felt"));
   EXPECT_THAT(refused, IsEmpty());
+}
+
+/// A press on a row is for the boundary that it showed, wherever that is when its turn comes.
+TEST_F(SceneModelReading, AChangeOfABoundaryIsOfTheOneThatWasShown) {
+  modes::Scene scene = modes::load_scene("ct-bone");
+  scene.modes.resize(1);
+  const modes::Mode one = scene.modes.front();
+  scene.modes.assign(4, one);
+  const char* const names[] = {"skin", "bone", "lung", "air"};
+  for (std::size_t n = 0; n < 4; ++n) scene.modes[n].name = names[n];
+  model.open(scene);
+  const auto remove = [this](std::size_t n) {
+    model.edit(
+        QStringLiteral("Remove"),
+        [shown = ShownMode(model.scene(), n)](modes::Scene& now) {
+          now.modes.erase(now.modes.begin() + static_cast<std::ptrdiff_t>(shown.in(now)));
+        },
+        [this](const QString& why) { told.push_back(why.toStdString()); });
+  };
+  const auto switch_off = [this](std::size_t n) {
+    model.edit_mode(
+        QStringLiteral("Switch off"), n, [](modes::Mode& mode) { mode.enabled = false; },
+        [this](const QString& why) { told.push_back(why.toStdString()); });
+  };
+  press("liver");
+  remove(1);
+  remove(1);      // it still stands in its row
+  switch_off(2);  // lung
+  switch_off(1);
+  while (model.is_waiting()) answer();
+  std::vector<std::pair<std::string, bool>> left;
+  for (const modes::Mode& mode : model.scene().modes) left.emplace_back(mode.name, mode.enabled);
+  EXPECT_THAT(left, ElementsAre(std::pair("skin", true), std::pair("lung", false), std::pair("air", true)));
+  const std::string gone = say("boundary-is-another-one", "bone");
+  EXPECT_THAT(told, ElementsAre("", "", gone, "", gone));
 }
 
 /// The scan became another frame meanwhile: what was read is of the one before.

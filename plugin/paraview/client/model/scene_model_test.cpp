@@ -148,6 +148,26 @@ TEST(MarksModel, MarksAreOfTheScanThatIsShown) {
   EXPECT_EQ(marks.marks().points.size(), 1U);
 }
 
+/// Its source was deleted in the Pipeline Browser.
+TEST(MarksModel, AnotherPlaceInThePipelineGetsSceneAndMarks) {
+  MadeText kept;
+  SceneModel scene(kept);
+  MarksModel marks(kept);
+  scene.open(modes::load_scene("ct-bone"));
+  scene.edit(QStringLiteral("Force"), [](modes::Scene& now) { now.limits.force_n = 1.5; });
+  marks.set_scan("one");
+  marks.add(mark_at(1));
+  const auto texts = kept.texts;
+  kept.take_away();
+  scene.reopen();
+  EXPECT_EQ(kept.texts, texts);
+  EXPECT_FALSE(scene.can_undo()) << "it would bring the former place back beside this one";
+  EXPECT_TRUE(scene.is_edited());
+  marks.add(mark_at(2));
+  EXPECT_EQ(marks.marks().points.size(), 2U);
+  EXPECT_NE(kept.texts, texts);
+}
+
 TEST(MarksModel, ATextThatStaysTheSameIsNoChange) {
   MadeText kept;
   MarksModel marks(kept);

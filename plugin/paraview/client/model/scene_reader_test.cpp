@@ -228,6 +228,37 @@ TEST_F(SceneReading, AScanThatIsReadForGivesWayToTheNext) {
   EXPECT_EQ(session.live().scan(), nullptr);
 }
 
+/// A frame that comes without the scene's filter, from a server or because the filter was chosen meanwhile.
+TEST_F(SceneReading, AFrameIsFilteredInTheBackground) {
+  modes::Scene scene = model.scene();
+  scene.filter.type = io::find_filter_type("gaussian");
+  session.expect_scan();
+  model.open(scene);
+  session.set_scan(testing::registered_scan(), {});
+  ASSERT_TRUE(comes([&] { return !session.expects_scan(); }));
+  int changes = 0;
+  QObject::connect(&session, &SessionController::felt_scan_changed, [&changes] { ++changes; });
+  const auto frame = testing::registered_scan();
+  session.set_scan(frame, {.number = 1, .count = 2});
+  EXPECT_TRUE(session.expects_scan()) << "it was filtered while the panel stood still";
+  EXPECT_NE(session.live().scan(), frame);
+  EXPECT_EQ(changes, 0);
+  ASSERT_TRUE(comes([&] { return session.live().scan() == frame; }));
+  EXPECT_EQ(io::filter_of(*session.live().felt_scan()), scene.filter);
+  EXPECT_EQ(changes, 1) << "what is drawn follows once";
+  session.set_no_scan({});
+  EXPECT_EQ(changes, 2);
+}
+
+/// A state whose scan cannot be fetched: its scene is not waited for.
+TEST_F(SceneReading, AScanThatDoesNotComeIsNoLongerExpected) {
+  session.expect_scan();
+  session.set_no_scan({});
+  EXPECT_TRUE(session.expects_scan()) << "the one before made way";
+  session.set_no_scan(QStringLiteral("the folder is gone"));
+  EXPECT_FALSE(session.expects_scan());
+}
+
 /// A file that is gone: no scan is felt without what the scene asks for, and the reason names the structure.
 TEST_F(SceneReading, AScanWhoseStructureIsGoneIsNotFelt) {
   modes::Scene scene = model.scene();

@@ -52,20 +52,22 @@ SessionController::~SessionController() {
 
 void SessionController::set_no_scan(const QString& why) {
   mark_button_.forget();
-  if (coming_.reader.cancel()) coming_.expected = false;
+  if (coming_.reader.cancel() || !why.isEmpty()) coming_.expected = false;
   why_no_scan_ = why;
   const auto recorded_now = live_.disconnect();
   live_.set_scan(nullptr);
   hand_.hold(nullptr);
   parted_.reset();
   poll();
+  emit felt_scan_changed();
   emit connection_changed();
   tell_recorded(recorded_now);
 }
 
 void SessionController::set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame) {
   why_no_scan_.clear();
-  if ((coming_.expected || !live_.scan()) && is_read_for(volume, frame)) return;
+  const bool is_unfiltered = volume && io::filter_of(*volume) != model_.scene().filter;
+  if ((coming_.expected || !live_.scan() || is_unfiltered) && is_read_for(volume, frame)) return;
   take_scan(std::move(volume), frame);
 }
 
@@ -101,6 +103,7 @@ void SessionController::take_scan(std::shared_ptr<const io::Volume> volume, cons
   }
   if (live_.plan()) workspace_.set(live_.plan()->workspace);
   if (std::exchange(coming_.begins_outside, false)) begin_outside();
+  emit felt_scan_changed();
   emit connection_changed();
   tell_recorded(recorded_now);
   if (!problem.isEmpty()) emit told(problem, true);

@@ -144,6 +144,8 @@ class SessionController : public QObject {
   void clutch_button_let_go();
   void polled(const palpate::plugin::SessionStatus& status);
   void connection_changed();
+  /// Another scan, another frame of it, or none is felt from now on.
+  void felt_scan_changed();
   void told(const QString& message, bool problem);
   /// The result of a press of the mark button, without a name.
   void marked(const palpate::plugin::MarkMade& made);

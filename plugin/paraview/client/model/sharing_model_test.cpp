@@ -203,6 +203,20 @@ TEST_F(SharingTest, ASceneThatCannotBeFeltIsRefused) {
   EXPECT_EQ(modes::to_json(model.scene()), before);
 }
 
+/// It was made for the scan before.
+TEST_F(SharingTest, NoSceneIsTakenWhileAnotherScanComes) {
+  open_scan();
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  session.expect_scan();
+  const std::string before = modes::to_json(model.scene());
+  modes::Scene other = model.scene();
+  other.modes.front().enabled = !other.modes.front().enabled;
+  client.send_text(igtl::scene_name, modes::to_json(other));
+  EXPECT_NE(next_status(client, "refused").find("still being read"), std::string::npos);
+  EXPECT_EQ(modes::to_json(model.scene()), before);
+}
+
 TEST_F(SharingTest, WithoutAScanAClientIsToldSo) {
   ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
   TestClient client(sharing.port());

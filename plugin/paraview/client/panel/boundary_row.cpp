@@ -1,7 +1,6 @@
 #include "plugin/paraview/client/panel/boundary_row.h"
 
 #include <QCheckBox>
-#include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
@@ -15,6 +14,7 @@
 
 #include "modes/scene/boundary_names.h"
 #include "modes/types/mode_type.h"
+#include "plugin/paraview/client/widgets/color_dialog.h"
 #include "plugin/paraview/client/widgets/shortened_edit.h"
 #include "plugin/paraview/client/words/mode_words.h"
 
@@ -58,21 +58,30 @@ BoundaryRow::BoundaryRow(SceneModel& model, std::size_t mode, int row, QWidget& 
   add_strength(parent, grid, row);
 }
 
+BoundaryRow::Shown::Pair BoundaryRow::Shown::in(modes::Scene& scene) const {
+  return {&scene.modes[there.in(scene)], back ? &scene.modes[back->in(scene)] : nullptr};
+}
+
+BoundaryRow::Shown BoundaryRow::shown() const {
+  const modes::Scene& scene = model_.scene();
+  return {{scene, mode_}, back_ ? std::optional(ShownMode(scene, *back_)) : std::nullopt};
+}
+
 /// The way back is the same boundary.
 void BoundaryRow::edit(const QString& what, const std::function<void(modes::Mode&)>& change) {
-  model_.edit(what, [change, mode = mode_, back = back_](modes::Scene& scene) {
-    if (std::max(mode, back.value_or(0)) >= scene.modes.size()) return;  // others were removed before
-    change(scene.modes[mode]);
-    if (back) change(scene.modes[*back]);
+  model_.edit(what, [change, shown = shown()](modes::Scene& scene) {
+    const auto [there, back] = shown.in(scene);
+    change(*there);
+    if (back) change(*back);
   });
 }
 
 void BoundaryRow::set_felt(const QString& what, bool felt) {
   const int direction = direction_ ? direction_->currentIndex() : in;
-  model_.edit(what, [felt, direction, mode = mode_, back = back_](modes::Scene& scene) {
-    if (std::max(mode, back.value_or(0)) >= scene.modes.size()) return;
-    scene.modes[mode].enabled = felt && direction != out;
-    if (back) scene.modes[*back].enabled = felt && direction != in;
+  model_.edit(what, [felt, direction, shown = shown()](modes::Scene& scene) {
+    const auto [there, back] = shown.in(scene);
+    there->enabled = felt && direction != out;
+    if (back) back->enabled = felt && direction != in;
   });
 }
 
@@ -94,13 +103,19 @@ void BoundaryRow::add_switch(QWidget& parent, QGridLayout& grid, int row) {
   color_->setObjectName(QStringLiteral("palpateColor") + number);
   color_->setFixedSize(18, 18);
   color_->setToolTip(tr("The boundary's color, here and in the views"));
-  connect(color_, &QToolButton::clicked, this, [this] {
-    const QString name = name_of(model_.scene(), mode_);
-    const QColor chosen = QColorDialog::getColor(color_of(of_scene()), color_, name, QColorDialog::DontUseNativeDialog);
-    if (!chosen.isValid()) return;
-    edit(tr("Color %1").arg(name), [chosen](modes::Mode& mode) { mode.color = chosen.name().toStdString(); });
-  });
+  connect(color_, &QToolButton::clicked, this, [this] { choose_color(); });
   grid.addWidget(color_, row, 1);
+}
+
+void BoundaryRow::choose_color() {
+  const QString name = name_of(model_.scene(), mode_);
+  ask_color(*color_, name, color_of(of_scene()), [name, shown = shown(), &model = model_](const QColor& chosen) {
+    model.edit(tr("Color %1").arg(name), [shown, color = chosen.name().toStdString()](modes::Scene& scene) {
+      const auto [there, back] = shown.in(scene);
+      there->color = color;
+      if (back) back->color = color;
+    });
+  });
 }
 
 void BoundaryRow::add_name(QWidget& parent, QGridLayout& grid, int row) {
@@ -110,10 +125,10 @@ void BoundaryRow::add_name(QWidget& parent, QGridLayout& grid, int row) {
     const QString was = name_of(model_.scene(), mode_);
     if (name_->text() == was) return;
     const std::string name = name_->text().toStdString();
-    model_.edit(tr("Rename %1").arg(was), [name, mode = mode_, back = back_](modes::Scene& scene) {
-      if (std::max(mode, back.value_or(0)) >= scene.modes.size()) return;
-      scene.modes[mode].name = name;
-      if (back && !name.empty()) scene.modes[*back].name = modes::way_back_name(name);
+    model_.edit(tr("Rename %1").arg(was), [name, shown = shown()](modes::Scene& scene) {
+      const auto [there, back] = shown.in(scene);
+      there->name = name;
+      if (back && !name.empty()) back->name = modes::way_back_name(name);
     });
   });
   grid.addWidget(name_, row, name_column);

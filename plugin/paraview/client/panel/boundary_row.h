@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "plugin/paraview/client/model/scene_model.h"
+#include "plugin/paraview/client/model/shown_mode.h"
 
 class QCheckBox;
 class QComboBox;
@@ -48,6 +49,19 @@ class BoundaryRow : public QObject {
   void add_name(QWidget& parent, QGridLayout& grid, int row);
   void add_direction(QWidget& parent, QGridLayout& grid, int row);
   void add_strength(QWidget& parent, QGridLayout& grid, int row);
+  struct Shown {
+    struct Pair {
+      modes::Mode* there;
+      modes::Mode* back;  ///< null: there is none
+    };
+    /// Throws as ShownMode does.
+    Pair in(modes::Scene& scene) const;
+
+    ShownMode there;
+    std::optional<ShownMode> back;
+  };
+  Shown shown() const;
+  void choose_color();
   void edit(const QString& what, const std::function<void(modes::Mode&)>& change);
   void set_felt(const QString& what, bool felt);
   const modes::Mode& of_scene() const { return model_.scene().modes[mode_]; }

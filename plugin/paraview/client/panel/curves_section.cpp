@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "plugin/paraview/client/model/shown_mode.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words/mode_words.h"
@@ -37,9 +38,8 @@ const std::vector<Preset>& presets() {
   return all;
 }
 
-modes::Gate* gate_of(modes::Scene& scene, std::size_t mode) {
-  if (mode >= scene.modes.size()) return nullptr;
-  auto& gates = scene.modes[mode].gates;
+modes::Gate* gate_of(modes::Mode& mode) {
+  auto& gates = mode.gates;
   const auto of_value =
       std::find_if(gates.begin(), gates.end(), [](const modes::Gate& gate) { return gate.of == modes::Datum::value; });
   return of_value == gates.end() ? nullptr : &*of_value;
@@ -81,7 +81,9 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& session, Stro
   column->addWidget(presets_);
   const auto connect_editor = [this](CurveEditor* editor, auto put) {
     connect(editor, &CurveEditor::dragged, this, [this, editor, put] {
-      model_.drag([of = mode(), curve = editor->curve(), put](modes::Scene& scene) { put(scene, of, curve); },
+      if (mode() >= model_.scene().modes.size()) return;
+      model_.drag([shown = ShownMode(model_.scene(), mode()), curve = editor->curve(),
+                   put](modes::Scene& scene) { put(scene.modes[shown.in(scene)], curve); },
                   [alive = QPointer(this)](const QString& why) {
                     if (alive) show_message(*alive->message_, why, true);
                   });
@@ -94,11 +96,9 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& session, Stro
       if (message_->isVisibleTo(this)) show_mode();  // what was refused goes back to what is felt
     });
   };
-  connect_editor(strength_, [](modes::Scene& scene, std::size_t of, const modes::TransferFunction& curve) {
-    if (of < scene.modes.size()) scene.modes[of].strength_n = curve;
-  });
-  connect_editor(gate_, [](modes::Scene& scene, std::size_t of, const modes::TransferFunction& curve) {
-    if (modes::Gate* const gate = gate_of(scene, of)) gate->factor = curve;
+  connect_editor(strength_, [](modes::Mode& mode, const modes::TransferFunction& curve) { mode.strength_n = curve; });
+  connect_editor(gate_, [](modes::Mode& mode, const modes::TransferFunction& curve) {
+    if (modes::Gate* const gate = gate_of(mode)) gate->factor = curve;
   });
   connect(&model, &SceneModel::changed, this, [this](Pace pace) {
     if (pace == Pace::dragged) return;  // it is this curve's
@@ -178,7 +178,7 @@ void CurvesSection::show_mode() {
   const bool any = study_ && mode() < scene.modes.size();
   strength_->setEnabled(any);
   presets_->setEnabled(any);
-  const modes::Gate* const gate = any ? gate_of(scene, mode()) : nullptr;
+  const modes::Gate* const gate = any ? gate_of(scene.modes[mode()]) : nullptr;
   gate_->setVisible(gate != nullptr);
   if (!any) return;
   const modes::Mode& shown = scene.modes[mode()];

@@ -15,6 +15,7 @@
 #include <algorithm>
 
 #include "modes/types/mode_type.h"
+#include "plugin/paraview/client/model/shown_mode.h"
 #include "plugin/paraview/client/panel/tissues_section.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words/mode_words.h"
@@ -194,8 +195,8 @@ void ModesSection::remove_mode() {
   if (n >= model_.scene().modes.size()) return;
   model_.edit(
       tr("Remove %1").arg(name_of(model_.scene(), n)),
-      [n](modes::Scene& scene) {
-        if (n < scene.modes.size()) scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(n));
+      [shown = ShownMode(model_.scene(), n)](modes::Scene& scene) {
+        scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(shown.in(scene)));
       },
       told());
 }

@@ -97,6 +97,7 @@ class StructuresSection : public QWidget {
   std::vector<double> margins_of(const io::Structure& structure) const;
   void draw();
   void choose_color(std::size_t n);
+  void give_color(const io::Structure& structure, const QString& color);
   Entry* chosen();
   void fill_gates(QMenu& menu);
   void use(const QString& what, const Edit& edit);

@@ -1,4 +1,3 @@
-#include <QColorDialog>
 #include <QDoubleSpinBox>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -6,6 +5,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMimeData>
+#include <QPointer>
 #include <QSlider>
 #include <QToolButton>
 #include <QUrl>
@@ -16,6 +16,7 @@
 #include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/structures_section.h"
+#include "plugin/paraview/client/widgets/color_dialog.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/row_list.h"
 #include "plugin/paraview/client/widgets/tool_button.h"
@@ -157,17 +158,25 @@ void StructuresSection::dropEvent(QDropEvent* event) {
 void StructuresSection::choose_color(std::size_t n) {
   if (n >= entries_.size()) return;
   const io::Structure structure = entries_[n].structure;
-  const QColor chosen_color = QColorDialog::getColor(QColor(widget_text(entries_[n].color)), this,
-                                                     widget_text(structure.name), QColorDialog::DontUseNativeDialog);
-  if (!chosen_color.isValid() || n >= entries_.size()) return;
-  entries_[n].color = entries_[n].structure.color = chosen_color.name().toStdString();
+  ask_color(*this, widget_text(structure.name), QColor(widget_text(entries_[n].color)),
+            [alive = QPointer(this), structure](const QColor& chosen) {
+              if (alive) alive->give_color(structure, chosen.name());
+            });
+}
+
+/// Of another scan, perhaps, when the color comes: then it is in vain.
+void StructuresSection::give_color(const io::Structure& structure, const QString& color) {
+  const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
+    return one.structure.file == structure.file && one.structure.number == structure.number;
+  });
+  if (entry == entries_.end()) return;
+  entry->color = entry->structure.color = color.toStdString();
   const auto in_scene = [structure](const modes::SceneStructure& named) { return is_same(named, structure); };
   if (std::ranges::any_of(model_.scene().structures, in_scene)) {
-    model_.edit(tr("Color %1").arg(widget_text(structure.name)),
-                [in_scene, color = entries_[n].color](modes::Scene& scene) {
-                  const auto named = std::ranges::find_if(scene.structures, in_scene);
-                  if (named != scene.structures.end()) named->color = color;
-                });
+    model_.edit(tr("Color %1").arg(widget_text(structure.name)), [in_scene, color = entry->color](modes::Scene& scene) {
+      const auto named = std::ranges::find_if(scene.structures, in_scene);
+      if (named != scene.structures.end()) named->color = color;
+    });
   }
   list();
   draw();

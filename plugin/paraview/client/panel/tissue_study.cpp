@@ -10,6 +10,7 @@ TissueStudy::TissueStudy(SceneModel& model, SessionController& session, QWidget*
   setFormat(tr("Looking for tissues %p%"));
   hide();
   connect(&model, &SceneModel::changed, this, [this] {
+    if (session_.expects_scan()) return;  // what is felt is the one before
     if (const auto felt = session_.live().felt_scan(); felt && felt != studied_.lock()) study(felt);
   });
   // The thread ends before ParaView goes.

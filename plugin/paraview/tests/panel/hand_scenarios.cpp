@@ -1,6 +1,10 @@
 // The user's actions with keys, colors and curves, checked by what is felt and seen.
 
+#include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
+#include <pqPipelineSource.h>
 #include <pqRenderView.h>
+#include <pqServerManagerModel.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkProperty.h>
@@ -13,6 +17,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QPointer>
 #include <QWidget>
 
 #include <cmath>
@@ -101,6 +106,37 @@ void a_color_is_chosen() {
       "and its surface", [&] { return !shown(); }, 20);
 }
 
+/// The scene becomes another one while the dialog is open, and the rows are made anew.
+void a_color_for_a_boundary_that_went() {
+  scan_is_shown();
+  in_dialog("palpateColor0", [](QDialog& dialog) {
+    auto* const colors = qobject_cast<QColorDialog*>(&dialog);
+    expect(colors != nullptr, "the dialog of colors is open");
+    const QPointer<QWidget> row = &find<QWidget>("palpateColor0");
+    auto& scenes = find<QComboBox>("palpateScenes");
+    scenes.setCurrentIndex(1);
+    emit scenes.activated(1);
+    wait_for("the rows are of the other scene", [row] { return row.isNull(); });
+    colors->setCurrentColor(QColor(0x12, 0x34, 0x56));
+    colors->accept();
+  });
+  expect(scene_text().find("#123456") == std::string::npos, "no other boundary gets it");
+}
+
+/// In the Pipeline Browser, where it stands beside the scan.
+void what_keeps_the_scene_is_deleted() {
+  scan_is_shown();
+  const std::string before = scene_text();
+  auto& builder = *pqApplicationCore::instance()->getObjectBuilder();
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() == std::string("PalpateScene")) builder.destroy(source);
+  }
+  expect(scene_text().empty(), "it is gone");
+  wait_for("another keeps the scene", [&] { return scene_text() == before; });
+  find<QDoubleSpinBox>("palpateStrength0").setValue(1.25);
+  wait_for("edits are kept there", [&] { return scene_text() != before; });
+}
+
 /// While the button is still down: what is dragged is felt at once, and is in the undo stack as one edit after it.
 void a_dragged_node_is_felt() {
   scan_is_shown();
@@ -133,6 +169,8 @@ const Scenarios& hand_scenarios() {
   static const Scenarios scenarios{
       {"keys_step_in_the_views", keys_step_in_the_views},
       {"a_color_is_chosen", a_color_is_chosen},
+      {"a_color_for_a_boundary_that_went", a_color_for_a_boundary_that_went},
+      {"what_keeps_the_scene_is_deleted", what_keeps_the_scene_is_deleted},
       {"a_dragged_node_is_felt", a_dragged_node_is_felt},
   };
   return scenarios;

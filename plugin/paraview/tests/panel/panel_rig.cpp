@@ -146,6 +146,7 @@ void in_dialog_of(const std::string& what, const std::function<void()>& open,
   constexpr int poll_ms = 200;
   looking.start(poll_ms);
   open();
+  for (int ms = 0; !came && ms < 2000; ms += 20) handle_events(20);  // one that does not keep its caller waiting
   if (failed) std::rethrow_exception(failed);
   expect(came, what + " opens a dialog");
 }
