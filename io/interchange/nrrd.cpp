@@ -16,6 +16,7 @@
 #include "io/interchange/voxel_file.h"
 #include "io/messages.h"
 #include "io/structures/color.h"
+#include "solver/text/utf8.h"
 
 namespace palpate::io {
 namespace {
@@ -142,7 +143,7 @@ std::map<int, LabelName> names_in(const Fields& fields) {
     const std::vector<double> layer = numbers(field(fields, {segment + "Layer"}));
     const bool has_layer = !layer.empty() && std::isfinite(layer.front());
     const int in_layer = has_layer ? static_cast<int>(std::clamp(layer.front(), 0.0, most_layers)) : 0;
-    names[label_number(in_layer, value)] = {name->second, color_of_rgb(rgb)};
+    names[label_number(in_layer, value)] = {utf8_text(name->second), color_of_rgb(rgb)};
   }
 }
 

@@ -1,9 +1,12 @@
 // NRRD: every voxel at the position of its directions, for each space with named axes.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/structures/structure.h"
 #include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 #include "io/testing/voxel_files.h"
+#include "solver/text/printable.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -50,6 +53,22 @@ TEST(Nrrd, WhatIsToBeSkippedOtherwiseIsRefused) {
   }
   EXPECT_EQ(refusal_of("a.nrrd", nrrd(place + "encoding: gzip\nbyteskip: 3\n") + packed(data, 31)), why);
   EXPECT_EQ(refusal_of("a.nrrd", nrrd(place + "encoding: gzip\nbyteskip: -1\n") + packed(data, 31)), why);
+}
+
+/// Names in Latin-1 are letters; what is UTF-8 stays it.
+TEST(Nrrd, SegmentsHaveNamesInUtf8) {
+  const TestFolder folder;
+  const std::string place =
+      "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n";
+  write_bytes(folder / "a.seg.nrrd",
+              nrrd(place + "Segment0_Name:=L\xe4sion\nSegment0_LabelValue:=1\nSegment1_Name:=L\xc3\xa4ppchen\n"
+                           "Segment1_LabelValue:=2\n") +
+                  std::string(120, '\1'));
+  std::vector<std::string> names;
+  for (const Structure& structure : find_structures(std::vector{folder / "a.seg.nrrd"}).structures)
+    names.push_back(structure.name);
+  EXPECT_THAT(names, ::testing::Contains("L\u00e4sion"));
+  for (const std::string& name : names) EXPECT_EQ(printable(name), name);
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ class Tree {
     begin(DSRTypes::RT_contains, DSRTypes::VT_Container, CODE_DCM_ImagingMeasurements);
     for (const MarkedPoint& point : report.points) add_point(point, unit);
     for (const MeasuredLength& length : report.lengths) add_length(length);
+    for (const MeasuredAngle& angle : report.angles) add_angle(angle);
     end();
     add_text(DSRTypes::RT_contains, CODE_DCM_Comment, comment);
   }
@@ -152,6 +153,14 @@ class Tree {
     begin_number(straight ? DSRCodedEntryValue(CODE_DCM_Distance) : own_code("PATH", "Length of the felt path"),
                  length.length_mm, CODE_UCUM_Millimeter);
     add_coordinates(DSRTypes::RT_inferredFrom, CODE_DCM_Path, length.points_mm);
+    end();
+    end();
+  }
+
+  void add_angle(const MeasuredAngle& angle) {
+    begin_group(angle.name);
+    begin_number(CODE_DCM_Angle, angle.degrees, DSRCodedEntryValue("deg", "UCUM", "degree"));
+    add_coordinates(DSRTypes::RT_inferredFrom, CODE_DCM_Path, {angle.points_mm.begin(), angle.points_mm.end()});
     end();
     end();
   }

@@ -3,6 +3,7 @@
 /// Writes the marks and measurements of a series as DICOM objects of its study: a Comprehensive 3D SR by template TID
 /// 1500 (DICOM PS3.16), and pictures as Secondary Capture.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -31,10 +32,18 @@ struct MeasuredLength {
   double length_mm = 0;
 };
 
+/// The angle at the second of three points, between the lines to the first and the third.
+struct MeasuredAngle {
+  std::string name;
+  std::array<glm::dvec3, 3> points_mm;
+  double degrees = 0;
+};
+
 struct MeasurementReport {
   std::string software_version;
   std::vector<MarkedPoint> points;
   std::vector<MeasuredLength> lengths;
+  std::vector<MeasuredAngle> angles = {};
 };
 
 /// Writes the report with references to the series' images. Patient and study are copied from their headers. Throws

@@ -138,7 +138,8 @@ TEST(ReportContents, AreTheStandardsCodesAndWhatWasMeasured) {
       .software_version = "1.7",
       .points = {{"Mark 1", {1.25, -2.5, 300.125}, "sk\xC3\xB6n", -41.5, 0.75}, {"Mark 2", {4, 1, 2}, "", {}, {}}},
       .lengths = {{"Mark 1 to Mark 2", {{1.25, -2.5, 300.125}, {4, 1, 2}}, 1234.5678},
-                  {"Way", {{1, 2, 3}, {4, 5, 6}, {7, 8, 9.5}}, 10.5}}};
+                  {"Way", {{1, 2, 3}, {4, 5, 6}, {7, 8, 9.5}}, 10.5}},
+      .angles = {{"Angle at Mark 2", {{{1, 2, 3}, {4, 1, 2}, {7, 8, 9.5}}}, 101.25}}};
   const std::vector<std::string> expected{
       "CONTAINER, 126000 DCM 'Imaging Measurement Report': SEPARATE",
       "CODE, 121049 DCM 'Language of Content Item and Descendants': en RFC5646 'English'",
@@ -173,6 +174,12 @@ TEST(ReportContents, AreTheStandardsCodesAndWhatWasMeasured) {
       "UIDREF, 112040 DCM 'Tracking Unique Identifier': made",
       "NUM, PATH 99PALPATE 'Length of the felt path': 10.5 mm UCUM 'millimeter'",
       "SCOORD3D, 121055 DCM 'Path': POLYLINE in 1.2.3.4: 1.000000 2.000000 3.000000 4.000000 5.000000 6.000000 "
+      "7.000000 8.000000 9.500000",
+      "CONTAINER, 125007 DCM 'Measurement Group': SEPARATE",
+      "TEXT, 112039 DCM 'Tracking Identifier': Angle at Mark 2",
+      "UIDREF, 112040 DCM 'Tracking Unique Identifier': made",
+      "NUM, 110859 DCM 'Angle': 101.25 deg UCUM 'degree'",
+      "SCOORD3D, 121055 DCM 'Path': POLYLINE in 1.2.3.4: 1.000000 2.000000 3.000000 4.000000 1.000000 2.000000 "
       "7.000000 8.000000 9.500000",
       "TEXT, 121106 DCM 'Comment': Measured by research software, which is not a medical device."};
   // Letter by letter but for capitals, in which DCMTK's lists of codes differ.

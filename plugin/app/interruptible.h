@@ -6,7 +6,9 @@
 
 namespace palpate::plugin {
 
-/// While this object exists, SIGINT and SIGTERM only set a flag. Only one may exist at a time.
+/// While one of these objects exists, SIGINT, SIGTERM and SIGHUP (the terminal or its connection is gone) only set a
+/// flag, and SIGPIPE (the reader of the output is gone) is ignored. A SIGHUP that was ignored before stays ignored, as
+/// nohup wants it. One may be made inside another: they share the flag. For one thread.
 class Interruptible {
  public:
   Interruptible();
@@ -14,12 +16,15 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
   ~Interruptible();
 
-  /// Whether one of these signals has come since the latest Interruptible was made.
+  /// Whether one of these signals has come since the latest outermost Interruptible was made.
   static bool interrupted() noexcept;
 
  private:
+  bool is_outermost_ = false;
   struct sigaction interrupt_before_ {};
   struct sigaction terminate_before_ {};
+  struct sigaction hang_up_before_ {};
+  struct sigaction pipe_before_ {};
 };
 
 }  // namespace palpate::plugin

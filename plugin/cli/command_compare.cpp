@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "plugin/app/errors.h"
+#include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/output_files.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
@@ -31,7 +34,11 @@ RecordedSession read_session(const std::filesystem::path& file, const io::Volume
 }
 
 void run(const CompareOptions& options) {
-  const io::Volume volume = load_series(options.series);
+  const io::Series series = choose_series(options.series);
+  std::vector<std::filesystem::path> inputs = series.files;
+  inputs.insert(inputs.end(), {options.first, options.second});
+  check_outputs({options.picture, options.table}, inputs);
+  const io::Volume volume = open_scan(series, options.series.frame);
   const Comparison comparison =
       compare_strokes(read_session(options.first, volume), read_session(options.second, volume));
   if (!options.picture.empty()) {

@@ -68,8 +68,9 @@ void run_export(const MarksOptions& options) {
   io::FreshFolder folder(options.output);
   const std::size_t pictures = write_results(series, volume, marks, folder.path()).size() - 1;
   folder.commit();
-  put("{}: a report of {} marks, {} distances and {} paths, and {} pictures; `palpate send` sends them\n",
-      options.output.string(), marks.points.size(), marks.distances.size(), marks.paths.size(), pictures);
+  put("{}: a report of {} marks, {} distances, {} angles and {} paths, and {} pictures; `palpate send` sends them\n",
+      options.output.string(), marks.points.size(), marks.distances.size(), marks.angles.size(), marks.paths.size(),
+      pictures);
 }
 
 CLI::App* add_marks_command(CLI::App& program, const char* name, const char* what,

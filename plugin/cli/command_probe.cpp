@@ -6,10 +6,13 @@
 
 #include "io/fresh_folder.h"
 #include "plugin/app/errors.h"
+#include "plugin/app/interruptible.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
 #include "plugin/cli/ready_session.h"
 #include "plugin/cli/session_option.h"
+#include "plugin/messages/messages.h"
+#include "plugin/messages/tell.h"
 #include "plugin/options/put.h"
 #include "plugin/report/session_pictures.h"
 #include "plugin/report/summary.h"
@@ -24,32 +27,57 @@ struct ProbeOptions {
   bool at_clock_pace = false, json = false;
 };
 
+/// A folder of that name, which is new or empty.
+void make_folder(const std::filesystem::path& name) {
+  io::FreshFolder(name).commit();
+}
+
+/// The summary of the recording and its pictures.
+struct Results {
+  Summary summary;
+  std::string words;
+  std::vector<std::string> pictures;
+};
+
+Results write_results(const std::filesystem::path& file, const SessionRun& session, const io::Volume& volume,
+                      const device::Specification& stylus) {
+  const std::filesystem::path folder = file.parent_path();
+  const Recording recording = read_recording(file);
+  Results results{.summary = summarize(recording, *session.felt.plan), .words = {}, .pictures = {}};
+  add_uncertainty(results.summary, session.scene, *session.felt.source, volume.geometry);
+  results.words = to_text(results.summary, session.scene, describe_scan(*session.felt.volume), stylus.name);
+  write_text(folder / "summary.txt", results.words);
+  results.pictures = write_session_pictures(recording, results.summary, session.scene, *session.felt.plan,
+                                            *session.felt.source, volume.unit, folder);
+  return results;
+}
+
 void run(const ProbeOptions& options) {
   // Everything that can be refused is refused before anything is loaded or written.
   const std::shared_ptr<device::Stylus> stylus = make_stylus(options.session.stylus);
-  io::FreshFolder folder(options.output);
+  { const io::FreshFolder can_be_made(options.output); }
   auto [volume, session, simulated] = prepare_session(options.session, stylus);
   session.at_clock_pace = options.at_clock_pace || !simulated;
-  const SessionRunResult result = run_session(session, folder.path() / "recording.h5");
-  if (result.recorder.stopped) {
-    throw InputRefused(result.recorder.why);
+  const Interruptible interruptible;  // to the last picture
+  // The folder has its name before the session begins: whatever ends the program, what was recorded is found there.
+  make_folder(options.output);
+  const std::filesystem::path file = options.output / "recording.h5";
+  try {
+    const SessionRunResult result = run_session(session, file);
+    if (result.recorder.stopped) throw InputRefused(result.recorder.why);
+    const Results results = write_results(file, session, *volume, stylus->specification());
+    if (options.json) {
+      put_json_text(to_json(results.summary, session.scene));
+    } else {
+      put("{}\nWritten to {}: recording.h5, summary.txt, {}\n", results.words, options.output.string(),
+          fmt::join(results.pictures, ", "));
+    }
+  } catch (...) {
+    std::error_code not_empty;
+    std::filesystem::remove(options.output, not_empty);  // nothing was recorded
+    if (std::filesystem::exists(file)) tell(say("recording-is-kept", file.string()));
+    throw;
   }
-
-  const Recording recording = read_recording(folder.path() / "recording.h5");
-  Summary summary = summarize(recording, *session.felt.plan);
-  add_uncertainty(summary, session.scene, *session.felt.source, volume->geometry);
-  const std::string words =
-      to_text(summary, session.scene, describe_scan(*session.felt.volume), stylus->specification().name);
-  write_text(folder.path() / "summary.txt", words);
-  const auto pictures = write_session_pictures(recording, summary, session.scene, *session.felt.plan,
-                                               *session.felt.source, volume->unit, folder.path());
-  folder.commit();
-
-  if (options.json) {
-    put_json_text(to_json(summary, session.scene));
-    return;
-  }
-  put("{}\nWritten to {}: recording.h5, summary.txt, {}\n", words, options.output.string(), fmt::join(pictures, ", "));
 }
 
 }  // namespace

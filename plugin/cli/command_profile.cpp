@@ -6,11 +6,13 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "plugin/app/errors.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/app/vector_text.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/output_files.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
@@ -124,6 +126,9 @@ void run(const ProfileOptions& options) {
   const io::Series series = choose_series(options.series);
   const auto volume = std::make_shared<const io::Volume>(open_scan(series, options.series.frame));
   const modes::Scene scene = scene_for(options.scene, *volume);
+  std::vector<std::filesystem::path> inputs = files_read(series, scene);
+  inputs.emplace_back(options.scene);
+  check_outputs({options.picture, options.table}, inputs);
   const PreparedScene felt = prepare(scene, volume, glm::dvec3(0.1));
   warn_of_structures(felt);
   Profile profile{.stroke = run_stroke(*felt.plan, *felt.source, from, to, options.speed),

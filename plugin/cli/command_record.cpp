@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "plugin/app/errors.h"
+#include "plugin/app/interruptible.h"
 #include "plugin/cli/commands.h"
 #include "plugin/cli/ready_session.h"
 #include "plugin/cli/session_option.h"
@@ -24,6 +25,7 @@ void run(const RecordOptions& options) {
     throw InputRefused(say("exists-name-another-file", options.output.string()));
   }
   const ReadySession session = prepare_session(options.session, make_stylus(options.session.stylus));
+  const Interruptible interruptible;  // until the file is whole
   const SessionRunResult result = run_session(session.run, options.output);
   put("{}\n", in_words(result, options.output));
   if (result.recorder.stopped) {

@@ -143,9 +143,9 @@ TEST(CommandNumbers, TheMarksWordsHaveTheNumbersOfTheirJson) {
   const Outcome exported = palpate("export " + (out / "recording.h5").string() + " " + phantom().string() + " -o " +
                                    fresh_path("pressed_results").string());
   EXPECT_THAT(exported.output,
-              HasSubstr(fmt::format(": a report of {} marks, {} distances and {} paths, and {} pictures;",
-                                    told.at("marks").size(), told.at("distances").size(), told.at("paths").size(),
-                                    told.at("marks").size())));
+              HasSubstr(fmt::format(": a report of {} marks, {} distances, {} angles and {} paths, and {} pictures;",
+                                    told.at("marks").size(), told.at("distances").size(), told.at("angles").size(),
+                                    told.at("paths").size(), told.at("marks").size())));
 }
 
 /// Contours of 20 x 20 x 18 mm, moved on to a scan by a registration.

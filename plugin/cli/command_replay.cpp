@@ -7,12 +7,14 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "modes/scene/scene_json.h"
 #include "plugin/app/errors.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/app/run_session.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/output_files.h"
 #include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
 #include "plugin/options/put.h"
@@ -109,6 +111,14 @@ void run(const ReplayOptions& options) {
   if (options.series.path.empty() && options.csv.empty()) {
     throw WrongUsage(say("replay-needs-the-series-that-was-felt"));
   }
+  std::vector<std::filesystem::path> inputs = options.structures;
+  inputs.push_back(options.recording);
+  std::optional<io::Series> series;
+  if (!options.series.path.empty()) {
+    series = choose_series(options.series);
+    inputs.insert(inputs.end(), series->files.begin(), series->files.end());
+  }
+  check_outputs({options.csv}, inputs);
   const Recording recording = read_recording(options.recording);
   if (!recording.complete) {
     tell(say("not-closed-in-good-order", options.recording.string(), recording.ticks.size()));
@@ -116,13 +126,12 @@ void run(const ReplayOptions& options) {
   if (!options.csv.empty()) {
     write_csv(recording, options.csv);
   }
-  if (options.series.path.empty()) {
-    return;
-  }
-  const io::Series series = choose_series(options.series);
+  if (!series) return;
   std::vector<std::filesystem::path> places = options.structures;
+  const std::filesystem::path beside = structures_beside(options.recording);
+  if (std::filesystem::is_directory(beside)) places.push_back(beside);
   places.push_back(options.series.path);
-  const Replay result = replay(recording, on_series(series, options.series.frame, StructureFiles(std::move(places))));
+  const Replay result = replay(recording, on_series(*series, options.series.frame, StructureFiles(std::move(places))));
   if (options.json) {
     print_json(result, recording);
   } else {
@@ -165,8 +174,10 @@ void add_replay(CLI::App& program) {
       "Which frame (from 0); recordings made before 0.2.0 do not contain the number");
   command->add_option("--csv", options->csv, "also write a CSV file with a line for every tick");
   command
-      ->add_option("--structures", options->structures,
-                   "files and folders with the structures that were felt, if they are not beside the series")
+      ->add_option(
+          "--structures", options->structures,
+          "files and folders with the structures that were felt, if they are neither beside the series nor in the "
+          "recording's folder FILE.structures")
       ->check(CLI::ExistingPath);
   command->add_flag("--json", options->json, "print JSON");
   command->callback([options] { run(*options); });

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "plugin/app/errors.h"
+#include "plugin/app/interruptible.h"
 #include "plugin/app/live_session.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
@@ -12,6 +13,7 @@
 #include "plugin/messages/tell.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/openigtlink/serve.h"
+#include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
 namespace {
@@ -39,6 +41,7 @@ void run(const ServeCommand& command) {
   if (!server.is_local()) tell(igtl::say("igtl-others-may-connect", command.address.host));
   const ReadySession ready = prepare_session(command.session, stylus);
   if (!ready.simulated) stylus->close();  // the session opens it
+  const Interruptible interruptible;      // until the file is whole
   LiveSession session;
   session.set_scan(ready.volume, ready.run.scene, ready.run.frame);
   if (command.output.empty()) {
@@ -49,7 +52,10 @@ void run(const ServeCommand& command) {
     session.feel();
   }
   tell(igtl::say("igtl-listens", command.address.host, server.port()));
-  igtl::serve(session, server, {.seconds = command.session.seconds, .load = load_folder});
+  igtl::serve(session, server,
+              {.seconds = command.session.seconds,
+               .load = load_folder,
+               .keep_maps_in = command.output.empty() ? command.output : structures_beside(command.output)});
   const auto recorded = session.disconnect();
   if (recorded && recorded->stopped) throw InputRefused(recorded->why);
 }
@@ -74,7 +80,10 @@ void add_serve(CLI::App& program) {
                    "the address of this machine to listen on; any but 127.0.0.1 lets other machines read the session "
                    "and set scenes")
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "record the session to this file (HDF5); it must be new");
+  command->add_option(
+      "-o,--output", options->output,
+      "record the session to this file (HDF5); it must be new. Label maps that are felt are kept beside it, in the "
+      "folder FILE.structures");
   command->callback([options] { run(*options); });
 }
 

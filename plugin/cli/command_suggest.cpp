@@ -14,6 +14,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/cli/commands.h"
+#include "plugin/cli/output_files.h"
 #include "plugin/messages/messages.h"
 #include "plugin/options/put.h"
 #include "plugin/options/series_option.h"
@@ -100,8 +101,31 @@ void print_offers(const std::vector<Offer>& offers) {
   }
 }
 
+/// The picture of a scene that is to be written; empty if none is. It replaces no picture that is not a scene's.
+std::filesystem::path picture_beside(const std::filesystem::path& scene) {
+  if (scene.empty()) return {};
+  std::filesystem::path picture = scene;
+  picture.replace_extension(".png");
+  if (picture == scene) throw InputRefused(say("scene-is-no-picture", scene.string()));
+  if (std::filesystem::exists(picture) && !std::filesystem::exists(scene)) {
+    throw InputRefused(say("picture-is-there", picture.string(), scene.string()));
+  }
+  return picture;
+}
+
+std::vector<std::filesystem::path> files_of(const std::vector<Offer>& offers) {
+  std::vector<std::filesystem::path> files;
+  for (const Offer& offer : offers) files.push_back(offer.structure.file);
+  return files;
+}
+
 void run(const SuggestOptions& options) {
-  const auto volume = std::make_shared<const io::Volume>(load_series(options.series));
+  const io::Series series = choose_series(options.series);
+  const std::filesystem::path scene = options.output, picture = picture_beside(scene);
+  std::vector<std::filesystem::path> inputs = options.structures;
+  inputs.insert(inputs.end(), series.files.begin(), series.files.end());
+  check_outputs({scene, picture}, inputs);
+  const auto volume = std::make_shared<const io::Volume>(open_scan(series, options.series.frame));
   modes::Suggestion suggestion = modes::suggest(volume, terminal_progress("looking for tissues"));
   if (suggestion.boundaries.empty()) {
     throw InputRefused(say("no-boundary-between-tissues-was-found", options.series.path));
@@ -112,9 +136,7 @@ void run(const SuggestOptions& options) {
     put_json_text(text);
     return;
   }
-  const std::filesystem::path scene = options.output;
-  std::filesystem::path picture = scene;
-  picture.replace_extension(".png");
+  check_outputs({scene, picture}, files_of(offers));
   // The picture first: without it there shall be no scene that looks complete.
   write_suggestion_png(suggestion, volume, picture);
   write_text(scene, text + "\n");

@@ -185,6 +185,13 @@ void Announcer::announce_marks() {
   offer("POINT", marks_name, content_of(marks_), 0, true);
 }
 
+/// Neither that of a mark that is there nor that of one made before.
+std::string Announcer::free_name() const {
+  Marks all = felt_;
+  for (const Point& mark : marks_) all.points.push_back({.name = mark.name});
+  return free_mark_name(all);
+}
+
 void Announcer::follow_marks() {
   if (!ticks_ || makes_marks_ == MakesMarks::no) return;
   TickRecord tick;
@@ -195,12 +202,14 @@ void Announcer::follow_marks() {
     const modes::Workspace workspace = workspace_.at(tick);
     if ((tick.buttons & mark_button) == 0 && !presses_.is_down()) continue;
     const glm::dvec3 proxy = workspace.to_patient(vector_of(tick.proxy_m));
+    // Their modes are those of the scene of the tick.
+    if (tick.scene_epoch != session_.epoch()) shares.clear();
     const auto made = presses_.take(
         {.tick = tick, .time_s = tick.time_s, .proxy_mm = proxy, .shares = shares, .scene = session_.scene()});
     const auto* const mark = made ? std::get_if<FeltMark>(&*made) : nullptr;
     if (mark == nullptr) continue;
     FeltMark& kept = felt_.points.emplace_back(*mark);
-    kept.name = free_mark_name(felt_);
+    kept.name = free_name();
     marks_.push_back({.name = kept.name,
                       .group = kept.boundary,
                       .position = ras_of(kept.position_mm),

@@ -51,6 +51,7 @@ class Announcer {
   void announce_marks();
   void announce_shapes();
   void follow_marks();
+  std::string free_name() const;
   void offer(const char* type, const std::string& device, Bytes content, double stamp, bool kept);
 
   const LiveSession& session_;

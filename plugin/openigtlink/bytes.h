@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plugin/openigtlink/say.h"
+#include "solver/text/utf8.h"
 
 namespace palpate::plugin::igtl {
 
@@ -70,6 +71,11 @@ class Reader {
     const ByteView all = raw(room);
     const std::string_view view(reinterpret_cast<const char*>(all.data()), all.size());
     return std::string(view.substr(0, view.find('\0')));
+  }
+  /// The same as UTF-8 (utf8_text()), without a last character that did not fit in.
+  std::string utf8(std::size_t room) {
+    const std::string all = text(room);
+    return utf8_text(all.size() == room ? without_cut_character(all) : std::string_view(all));
   }
   std::size_t left() const noexcept { return bytes_.size(); }
 

@@ -78,7 +78,7 @@ Header read_header(ByteView bytes) {
   Header header;
   header.version = reader.number<std::uint16_t>();
   header.type = reader.text(type_size);
-  header.device = reader.text(device_size);
+  header.device = reader.utf8(device_size);  // becomes the name of a structure
   const auto stamp = reader.number<std::uint64_t>();
   header.time_s = static_cast<double>(stamp >> 32U) + static_cast<double>(stamp & 0xFFFFFFFFU) / fractions_per_s;
   header.body_size = reader.number<std::uint64_t>();

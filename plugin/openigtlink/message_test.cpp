@@ -28,6 +28,23 @@ TEST(OpenIgtMessage, ChecksumIsEcma182) {
   EXPECT_EQ(checksum({}), 0U);
 }
 
+/// Whatever a sender writes, and wherever it cuts.
+TEST(OpenIgtMessage, NamesAreReadAsUtf8AndCutBehindWholeCharacters) {
+  const auto read = [](const std::string& raw, std::size_t room) {
+    Bytes bytes = of_text(raw);
+    bytes.resize(room);
+    return Reader(bytes).utf8(room);
+  };
+  EXPECT_EQ(read("L\xe4sion", 20), "L\u00e4sion") << "Latin-1";
+  EXPECT_EQ(read("L\xc3\xa4sion", 20), "L\u00e4sion");
+  EXPECT_EQ(read("L\xe4", 20), "L\u00e4") << "not cut";
+  const std::string letters = "a\u00e4\u20ac\U0001f9e0";  // of 1, 2, 3 and 4 bytes
+  const std::vector<std::size_t> whole{0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10};
+  for (std::size_t room = 1; room < whole.size(); ++room) {
+    EXPECT_EQ(read(letters.substr(0, room), room), letters.substr(0, whole[room])) << room;
+  }
+}
+
 // The layout of the specification, byte by byte: an extended header of 12 bytes, the content, a table of key and value
 // sizes, keys and values.
 TEST(OpenIgtMessage, Version2HasItsPartsInTheirPlaces) {

@@ -1,11 +1,14 @@
 #pragma once
 
 /// Label maps sent by clients: each is stored in a file of a temporary folder under the client's name for it. In scenes
-/// on the wire the file is called "openigtlink:NAME", independently of its present file.
+/// on the wire the file is called "openigtlink:NAME", independently of its present file. The maps of a recorded session
+/// are also kept for its replay.
 
 #include <filesystem>
+#include <future>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/fresh_folder.h"
@@ -18,13 +21,18 @@ class Received {
   /// Limits on the number of names, and of files for each.
   static constexpr std::size_t most_maps = 8, most_files = 4;
 
+  Received() = default;
+  /// `keep_in`: a folder for copies of the maps that are used, by the hash of their content (hash_of_file()). Empty:
+  /// none are kept. It is made for the first map.
+  explicit Received(std::filesystem::path keep_in) : keep_in_(std::move(keep_in)) {}
+
   /// The file for a new map of that name: beside the present one, which is still read. Throws Refusal if there are too
   /// many names.
   std::filesystem::path fresh_file(const std::string& name);
   /// The file of the map with that name; empty if there is none.
   std::filesystem::path file_of(const std::string& name) const;
   /// From now on the name refers to that file. The latest few files before it are kept, because a change of scene may
-  /// be undone.
+  /// be undone. A copy is made in another thread, and told on stderr.
   void use(const std::string& name, const std::filesystem::path& file);
 
   /// The scene with names of maps in place of their files, for the wire.
@@ -36,6 +44,8 @@ class Received {
   io::FreshFolder folder_ = io::temporary_folder();
   std::map<std::string, std::vector<std::filesystem::path>> files_;  // the newest last
   int written_ = 0;
+  std::filesystem::path keep_in_;
+  std::vector<std::future<void>> copies_;  // after the folder: they read it to their end
 };
 
 }  // namespace palpate::plugin::igtl

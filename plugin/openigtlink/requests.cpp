@@ -110,6 +110,7 @@ void Requests::look() {
     waiting_.pop_front();
     begin();
   }
+  if (!change_.valid()) asked_.reset();  // its bytes are free for others
 }
 
 void Requests::begin() {

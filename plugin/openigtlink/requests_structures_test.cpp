@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "plugin/openigtlink/requests.h"
 #include "plugin/openigtlink/surface.h"
 #include "plugin/openigtlink/testing/asked_session.h"
+#include "plugin/recording/recorded_session.h"
+#include "plugin/testing/test_files.h"
 
 namespace palpate::plugin::igtl {
 namespace {
@@ -143,6 +146,108 @@ TEST(OpenIgtRequests, MarksGoBothWays) {
   EXPECT_EQ(got[1].name, "Mark 1");
   EXPECT_EQ(got[1].group, "skin");
   EXPECT_NEAR(got[1].position.z, 25, 0.6) << "RAS: the head's direction is the same";
+}
+
+/// Where what is felt moves, at a third of the way: the same mark as its recording has.
+TEST(OpenIgtRequests, AMarkMadeWhileTheSceneMovesIsWhereItWasFelt) {
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  scene.workspace = {.center_mm = glm::dvec3(0), .scale = 1, .fit = false};
+  scene.limits.ramp_s = 1;
+  SharedSession shared(LiveSession::Start::feeling, 0.022, scene);
+  const auto file = plugin::testing::fresh_path("moving.h5");
+  shared.session.record(file);
+  TestClient client(shared.server.port());
+  ASSERT_TRUE(shared.comes([&] { return sent_n(shared) > 0.3; }));
+  scene.workspace.center_mm = glm::dvec3(50, 0, 0);
+  scene.modes.insert(scene.modes.begin(), scene.modes.back());  // the modes have other numbers than before
+  scene.modes.front().name = "another";
+  shared.session.set_scene(scene);
+  const std::uint32_t epoch = shared.session.epoch();
+  ASSERT_TRUE(
+      shared.comes([&] { return shared.last_tick().scene_epoch == epoch && shared.last_tick().change_part > 0.25; }));
+  shared.session.press(mark_button);
+  shared.look_for(std::chrono::milliseconds(30));
+  shared.session.press(0);
+  std::vector<Point> got;
+  ASSERT_TRUE(shared.comes([&] {
+    if (const auto message = client.next("POINT", marks_name, 20)) got = points_of(message->content);
+    return got.size() == 1;
+  }));
+  shared.session.stop_recording();
+  const RecordedSession recorded(read_recording(file), *testing::ball_of_tissue());
+  const Marks marks = marks_of(recorded);
+  ASSERT_EQ(marks.points.size(), 1U);
+  EXPECT_LT(glm::distance(lps_of(got[0].position), marks.points[0].position_mm), 1e-3)
+      << marks.points[0].position_mm.x << " mm";
+  EXPECT_GT(marks.points[0].position_mm.x, 5);
+  EXPECT_LT(marks.points[0].position_mm.x, 45);
+  EXPECT_EQ(got[0].group, marks.points[0].boundary);
+}
+
+/// A tick is told of by its own scene: what the newer one has under the same number is another boundary.
+TEST(OpenIgtRequests, AMarkMadeBeforeAChangeHasNoBoundaryOfTheSceneAfterIt) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  ASSERT_TRUE(shared.comes([&] { return sent_n(shared) > 0.3; }));
+  modes::Scene scene = shared.session.scene();
+  for (modes::Mode& mode : scene.modes) mode.name += ", renamed";
+  // Without a look in between: the press is read after the scene has changed.
+  shared.session.press(mark_button);
+  std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  shared.session.press(0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  shared.session.set_scene(scene);
+  std::vector<Point> got;
+  ASSERT_TRUE(shared.comes([&] {
+    if (const auto message = client.next("POINT", marks_name, 20)) got = points_of(message->content);
+    return got.size() == 1;
+  }));
+  EXPECT_EQ(got[0].group, "");
+}
+
+/// A client may take any name: a mark that is felt gets another.
+TEST(OpenIgtRequests, AFeltMarkHasANameOfItsOwn) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  std::vector<Point> got;
+  const auto comes = [&](std::size_t count) {
+    return shared.comes([&] {
+      if (const auto message = client.next("POINT", marks_name, 20)) got = points_of(message->content);
+      return got.size() == count;
+    });
+  };
+  const auto press = [&] {
+    shared.session.press(mark_button);
+    shared.look_for(std::chrono::milliseconds(50));
+    shared.session.press(0);
+  };
+  const std::vector<Point> marks{{.name = "Mark 1", .position = {1, 2, 3}}, {.name = "Mark 3", .position = {4, 5, 6}}};
+  client.send({.type = "POINT", .device = marks_name, .content = content_of(marks)});
+  ASSERT_TRUE(comes(2));
+  press();
+  ASSERT_TRUE(comes(3));
+  EXPECT_EQ(got[2].name, "Mark 2");
+  press();
+  ASSERT_TRUE(comes(4));
+  EXPECT_EQ(got[3].name, "Mark 4");
+  client.send({.type = "POINT", .device = marks_name, .content = content_of(std::vector<Point>())});
+  ASSERT_TRUE(comes(0));
+  press();
+  ASSERT_TRUE(comes(1));
+  EXPECT_EQ(got[0].name, "Mark 1") << "the client's own is gone; those that were felt keep their names";
+}
+
+TEST(OpenIgtRequests, AMapThatCannotBeKeptForReplayIsTold) {
+  const auto taken = plugin::testing::fresh_path("taken"), map = plugin::testing::fresh_path("map.nrrd");
+  std::ofstream(taken) << "a file, and no folder";
+  std::ofstream(map) << "labels";
+  ::testing::internal::CaptureStderr();
+  {
+    Received received(taken);
+    received.use("organ", map);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "palpate: label map \"organ\": cannot be kept for replay in " + taken.string() + ": Not a directory\n");
 }
 
 TEST(OpenIgtRequests, ARefusedMapIsNotKept) {

@@ -11,6 +11,8 @@
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/surface.h"
 #include "plugin/openigtlink/testing/asked_session.h"
+#include "plugin/recording/recording.h"
+#include "plugin/testing/test_files.h"
 
 namespace palpate::plugin::igtl {
 namespace {
@@ -154,16 +156,36 @@ TEST(OpenIgtRequests, NothingClearsAFault) {
   EXPECT_EQ(text_of_status(shared, client, "stopped").substr(0, 9), "Stopped: ");
 }
 
-TEST(OpenIgtRequests, ANameThatIsNoTextIsTold) {
+/// Names in other letters, or cut by their sender behind 20 bytes, are felt, recorded and sent as UTF-8. What a client
+/// gets it may send back.
+TEST(OpenIgtRequests, ANameThatIsNoTextIsToldRecordedAndTakenBack) {
   SharedSession shared;
+  const auto file = plugin::testing::fresh_path("names.h5");
+  shared.session.record(file);
   TestClient client(shared.server.port());
-  client.send(ball_of_labels("L\xe4sion \xff", glm::dvec3(0), 10));
-  ASSERT_TRUE(shared.comes([&] { return shared.session.scene().structures.size() == 1; }));
+  const std::vector<std::string> sent{"L\xe4sion \xff", std::string("abcdefghijklmnopqrs\xc3"),
+                                      "L\xc3\xa4"
+                                      "ppchen"};
+  const std::vector<std::string> names{"L\u00e4sion \u00ff", "abcdefghijklmnopqrs", "L\u00e4ppchen"};
+  for (std::size_t n = 0; n < sent.size(); ++n) {
+    client.send(ball_of_labels(sent[n], glm::dvec3(0), 10 + static_cast<double>(n)));
+    ASSERT_TRUE(shared.comes([&] { return shared.session.scene().structures.size() == n + 1; })) << names[n];
+    EXPECT_EQ(shared.session.scene().structures[n].name, names[n]);
+  }
   std::string said;
   EXPECT_TRUE(shared.comes([&] {
     if (const auto message = client.next("STRING", scene_name, 20)) said = string_of(message->content);
-    return said.find("L\xef\xbf\xbdsion") != std::string::npos;
+    return said.find(names.back()) != std::string::npos;
   })) << said;
+  EXPECT_NE(said.find("\"openigtlink:L\u00e4sion \u00ff\""), std::string::npos) << said;
+  modes::Scene scene = modes::scene_from_json(said, "wire");
+  scene.name = "sent back";
+  client.send_text(scene_name, modes::to_json(scene));
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scene().name == "sent back"; }));
+  const auto status = shared.session.stop_recording();
+  ASSERT_TRUE(status);
+  EXPECT_FALSE(status->stopped) << status->why;
+  EXPECT_EQ(read_recording(file).scenes.back().structures, names);
 }
 
 TEST(OpenIgtRequests, ASceneThatIsTooLongIsNotTakenForTheOneBefore) {

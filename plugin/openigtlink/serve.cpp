@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plugin/app/interruptible.h"
+#include "plugin/messages/messages.h"
 #include "plugin/messages/tell.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/openigtlink/sharing.h"
@@ -36,8 +37,9 @@ void serve(LiveSession& session, Server& server, const ServeOptions& options) {
   const Interruptible interruptible;
   const auto end = Clock::now() + std::chrono::duration<double>(options.seconds);
   std::optional<std::string> fault;
+  bool told_unrecorded = false;
   {
-    Received received;
+    Received received(options.keep_maps_in);
     Sharing sharing(session, server, received, changes_of(session, options.load));
     while (!Interruptible::interrupted() && (options.seconds <= 0 || Clock::now() < end)) {
       session.heartbeat();
@@ -45,6 +47,10 @@ void serve(LiveSession& session, Server& server, const ServeOptions& options) {
       if (session.last_fault() && fault != session.last_fault()->time) {
         fault = session.last_fault()->time;
         tell(describe(*session.last_fault()));
+      }
+      if (const auto recording = session.recording(); recording && recording->stopped && !told_unrecorded) {
+        told_unrecorded = true;
+        tell(plugin::say("goes-on-unrecorded", recording->why));
       }
       std::this_thread::sleep_for(between_looks);
     }

@@ -2,6 +2,8 @@
 
 /// Shares a running session with clients of OpenIGTLink, until it is interrupted.
 
+#include <filesystem>
+
 #include "plugin/app/live_session.h"
 #include "plugin/openigtlink/requests.h"
 #include "plugin/openigtlink/server.h"
@@ -9,8 +11,9 @@
 namespace palpate::plugin::igtl {
 
 struct ServeOptions {
-  double seconds = 0;  ///< 0: until SIGINT or SIGTERM
-  LoadScan load;       ///< for PalpateFolder
+  double seconds = 0;                       ///< 0: until SIGINT or SIGTERM
+  LoadScan load;                            ///< for PalpateFolder
+  std::filesystem::path keep_maps_in = {};  ///< Received's folder
 };
 
 /// Functions that change the session itself. It must outlive them.

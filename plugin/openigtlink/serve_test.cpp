@@ -196,6 +196,59 @@ TEST(OpenIgtServe, ALabelMapIsFeltWithinASecond) {
   EXPECT_EQ(serving.program.end(SIGINT), 0) << "ended in good order";
 }
 
+/// A label map dies with the program, but not what was felt of it: replay finds the copy beside the recording.
+TEST(OpenIgtServe, ASessionOnALabelMapIsReplayed) {
+  Serving serving;
+  TestClient client(serving.port);
+  const auto kept_maps = [&] {
+    const std::string said = plugin::testing::text_in(serving.output), words = "kept for replay";
+    int count = 0;
+    for (std::size_t at = said.find(words); at != std::string::npos; at = said.find(words, at + 1)) ++count;
+    return count;
+  };
+  int sent = 0;
+  for (const char* const name : {"organ", "L\xe4sion", "organ"}) {  // the second "organ" is another map
+    client.send(testing::ball_of_labels(name, glm::dvec3(0), 18 + 0.7 * sent++));
+    for (int tries = 0; kept_maps() < sent && tries < 600; ++tries) client.next(100);
+    ASSERT_EQ(kept_maps(), sent);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // some of it is felt
+  ASSERT_EQ(serving.program.end(SIGINT), 0);
+  const std::string said = plugin::testing::text_in(serving.output),
+                    folder = serving.recording.string() + ".structures";
+  EXPECT_EQ(said.find("unrecorded"), std::string::npos) << said;
+  EXPECT_NE(said.find("palpate: label map \"L\u00e4sion\": kept for replay in " + folder), std::string::npos) << said;
+  const auto kept = std::filesystem::directory_iterator(folder);
+  EXPECT_EQ(std::distance(begin(kept), end(kept)), 3);
+  const plugin::testing::Outcome again =
+      plugin::testing::palpate("replay " + serving.recording.string() + " " + phantom().string());
+  EXPECT_EQ(again.exit, 0) << again.output;
+  EXPECT_NE(again.output.find("the same to the last bit"), std::string::npos) << again.output;
+  const auto elsewhere = fresh_path("moved.structures");
+  std::filesystem::rename(folder, elsewhere);
+  EXPECT_EQ(plugin::testing::palpate("replay " + serving.recording.string() + " " + phantom().string()).exit, 1);
+  EXPECT_EQ(plugin::testing::palpate("replay " + serving.recording.string() + " " + phantom().string() +
+                                     " --structures " + elsewhere.string())
+                .exit,
+            0);
+}
+
+/// A file may have 204 800 bytes. The session goes on, and says once, when it happens, that it is not recorded.
+TEST(OpenIgtServe, ARecordingThatStopsIsToldAtOnce) {
+  const auto file = fresh_path("stops.h5");
+  const plugin::testing::Outcome outcome =
+      plugin::testing::run_command("{ trap '' XFSZ; ulimit -f 400; " PALPATE_PROGRAM " serve " + phantom().string() +
+                                   " --scene ct-skin-and-bone --path " + path_of_hand().string() +
+                                   " --port 0 --seconds 5 -o " + file.string() + "; } 2>&1");
+  EXPECT_EQ(outcome.exit, 1);
+  const std::string words = "The session goes on unrecorded.";
+  const std::size_t told = outcome.output.find(words), served = outcome.output.find(" messages");
+  ASSERT_NE(told, std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find(words, told + 1), std::string::npos) << outcome.output;
+  EXPECT_LT(told, served) << outcome.output;
+  EXPECT_GT(read_recording(file.string() + ".partial").ticks.size(), 0U);
+}
+
 TEST(OpenIgtServe, SaysWhereItListensAndWarnsOfOtherHosts) {
   const Serving local;
   { const testing::Connection there(local.port); }

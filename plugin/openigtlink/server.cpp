@@ -50,7 +50,7 @@ std::string without_prefix(const std::string& type) {
 
 }  // namespace
 
-Server::Server(const Address& address) {
+Server::Server(const Address& address, std::size_t most_bytes) : most_bytes_(most_bytes) {
   const std::string port = std::to_string(address.port);
   const auto refused = [&](const char* why) { return Refusal(say("igtl-cannot-listen", address.host, port, why)); };
   addrinfo hints{};
@@ -186,7 +186,13 @@ std::size_t Server::wanted(Client& client, const Header& header) {
   if (type == "IMAGE") most = largest_image + room_for_metadata;
   if (most == 0) return 0;
   if (controls_ == 0) controls_ = client.id();
-  if (controls_ == client.id()) return most;
+  if (controls_ == client.id()) {
+    const std::size_t held = *bytes_;
+    // What is too large by itself is refused for its size.
+    if (header.body_size > most || held == 0 || held + header.body_size <= most_bytes_) return most;
+    refuse(client, Status::Code::overflow, say("igtl-too-much-waits", type, header.device, header.body_size, held));
+    return 0;
+  }
   ++counts_.refused;
   if (!std::exchange(client.told_read_only, true)) {
     refuse(client, Status::Code::access_denied, say("igtl-another-client-controls"));
@@ -215,7 +221,10 @@ void Server::keep_request(Client& client, Message&& message) {
     requests_.erase(requests_.begin());
     ++counts_.outrun;
   }
-  requests_.push_back({client.id(), client.from_this_machine(), std::move(message)});
+  const std::size_t size = message.content.size();
+  *bytes_ += size;
+  std::shared_ptr<const void> counted(bytes_.get(), [bytes = bytes_, size](const void*) { *bytes -= size; });
+  requests_.push_back({client.id(), client.from_this_machine(), std::move(message), std::move(counted)});
 }
 
 void Server::answer_query(Client& client, const Message& message) {

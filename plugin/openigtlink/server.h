@@ -19,6 +19,7 @@ namespace palpate::plugin::igtl {
 
 inline constexpr int default_port = 18944;
 inline constexpr std::size_t most_clients = 8;
+inline constexpr std::size_t most_request_bytes = std::size_t{1} << 30U;
 
 struct Address {
   std::string host = "127.0.0.1";  ///< address of an interface of this machine, numeric
@@ -32,10 +33,12 @@ class Server {
     std::uint64_t client = 0;
     bool from_this_machine = true;
     Message message;
+    std::shared_ptr<const void> counted = nullptr;  ///< while it exists, the message's bytes count as taken
   };
 
-  /// Listens. Throws Refusal that names the address and what to do.
-  explicit Server(const Address& address);
+  /// Listens. A request is refused while the ones before it, until they are destroyed, would take more than
+  /// `most_bytes` with it. Throws Refusal that names the address and what to do.
+  explicit Server(const Address& address, std::size_t most_bytes = most_request_bytes);
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
   ~Server();
@@ -69,6 +72,8 @@ class Server {
   void refuse(Client& client, Status::Code code, const Text& why);
   void drop_the_gone();
 
+  std::size_t most_bytes_;
+  std::shared_ptr<std::atomic<std::size_t>> bytes_ = std::make_shared<std::atomic<std::size_t>>(0);  // of requests
   int listener_ = -1, port_ = 0;
   bool local_ = true;
   std::uint64_t last_client_ = 0, controls_ = 0;  // 0: none

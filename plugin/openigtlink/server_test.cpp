@@ -145,6 +145,35 @@ TEST(OpenIgtServer, OfManyNamesTheNewestAreTaken) {
   EXPECT_EQ(requests.back().message.device, "map 999");
 }
 
+/// Sixteen label maps may wait, but not of any size: what waits, also in the hands of who took it, has a limit.
+TEST(OpenIgtServer, RequestsTakeNoMoreMemoryThanTheirLimit) {
+  SteppedServer stepped(10'000);
+  TestClient client(stepped.server.port());
+  const auto send = [&](const std::string& name, std::size_t size) {
+    client.send({.type = "IMAGE", .device = name, .content = Bytes(size)});
+  };
+  send("first", 6000);
+  send("second", 5000);
+  const auto refused = client.next_status("refused");
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->code, Status::Code::overflow);
+  EXPECT_EQ(refused->text, "IMAGE \"second\" has 5000 bytes, too many while 6000 bytes of others wait");
+  send("third", 4000);
+  auto taken = requests_of(stepped.server, 2);
+  ASSERT_EQ(taken.size(), 2U);
+  EXPECT_EQ(taken[1].message.device, "third");
+  send("fourth", 1);
+  ASSERT_TRUE(client.next_status("refused")) << "what was taken is still there";
+  taken.erase(taken.begin());
+  send("fifth", 6000);
+  EXPECT_EQ(requests_of(stepped.server, 3).size(), 1U);
+  taken.clear();
+  send("a large one", 20'000);
+  const auto alone = requests_of(stepped.server, 4);
+  ASSERT_EQ(alone.size(), 1U) << "alone it is taken";
+  EXPECT_EQ(alone.front().message.content.size(), 20'000U);
+}
+
 TEST(OpenIgtServer, ALyingClientIsRefusedAndClosedAndOthersGoOn) {
   SteppedServer stepped;
   TestClient other(stepped.server.port()), liar(stepped.server.port());

@@ -12,6 +12,18 @@
 #include "solver/text/printable.h"
 
 namespace palpate::plugin {
+namespace {
+
+/// Whether all that was printed on stdout has gone out.
+bool is_written() {
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+void check_output() {
+  if (!is_written()) throw InputRefused(say("standard-output-cannot-be-written"));
+}
+
+}  // namespace
 
 int run_program(CLI::App& program, int argc, char** argv) {
   const auto told = [&](const std::exception& error, int exit) {
@@ -23,13 +35,15 @@ int run_program(CLI::App& program, int argc, char** argv) {
   program.footer("Exit: 0 done, 1 something in the input was refused, 2 wrong usage, 3 internal fault.");
   try {
     program.parse(argc, argv);
+    check_output();
     return 0;
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     const int code = program.exit(error, out, err);  // it names what was typed
     std::fputs(printable(out.str()).c_str(), stdout);
     std::fputs(printable(err.str()).c_str(), stderr);
-    return code == 0 ? 0 : 2;
+    if (code != 0) return 2;
+    return is_written() ? 0 : told(InputRefused(say("standard-output-cannot-be-written")), 1);
   } catch (const WrongUsage& error) {
     return told(error, 2);
   } catch (const std::runtime_error& error) {  // InputRefused, and what the folders throw of files, series and devices

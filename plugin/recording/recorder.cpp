@@ -78,6 +78,7 @@ RecorderStatus Recorder::finish() {
 
 void Recorder::run() {
   auto flushed = options_.now();
+  std::uint64_t flushed_tick = next();
   bool ending = false;
   try {
     // Once more after the end was asked for: until nothing is left.
@@ -87,9 +88,11 @@ void Recorder::run() {
         stop(say("less-than-mib-are-left-on", options_.spare_bytes >> 20U, file_.string()));
         return;
       }
-      if (options_.now() - flushed >= between_flushes) {
+      // By ticks, too: a session that does not wait for the clock may be over within a second.
+      if (options_.now() - flushed >= between_flushes || next() - flushed_tick >= most_of_batch) {
         writer_.flush();
         flushed = options_.now();
+        flushed_tick = next();
       }
       std::unique_lock lock(mutex_);
       progress_.notify_all();

@@ -55,6 +55,11 @@ RegisteredStructure registered_structure(const Json& json) {
   return registered;
 }
 
+/// A name may come from a file that is not UTF-8: it ends no recording.
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 Handle tick_row_type() {
@@ -118,7 +123,7 @@ std::string to_line(const SceneRecord& scene) {
             {"scene", scene.scene}};
   for (const RegisteredStructure& one : scene.registered) json["registered"].push_back(json_of(one));
   if (scene.frame) json["frame"] = {{"number", scene.frame->number}, {"count", scene.frame->count}};
-  return json.dump() + "\n";
+  return line_of(json);
 }
 
 std::string to_line(const StylusRecord& stylus) {
@@ -127,12 +132,12 @@ std::string to_line(const StylusRecord& stylus) {
                   {"name", stylus.name},
                   {"force_axes", stylus.force_axes},
                   {"maximum_force_n", stylus.maximum_force_n}};
-  return json.dump() + "\n";
+  return line_of(json);
 }
 
 std::string to_line(const Gap& gap) {
   const Json json{{"kind", "gap"}, {"first_frame", gap.first_tick}, {"frames", gap.ticks}};
-  return json.dump() + "\n";
+  return line_of(json);
 }
 
 void read_events(std::string_view lines, Recording& recording) {

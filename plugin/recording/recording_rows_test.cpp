@@ -166,5 +166,23 @@ TEST(RecordingRows, ARegistrationIsWrittenRowByRow) {
   EXPECT_THAT(line, ::testing::HasSubstr("[1.0,2.0,3.0,4.0,5.0,6.0,7.0,8.0,9.0,10.0,11.0,12.0,0.0,0.0,0.0,1.0]"));
 }
 
+/// A name may come from a file in any letters, and be cut anywhere: its events stay events.
+TEST(RecordingRows, NamesThatAreNoTextEndNoRecording) {
+  const std::string no_text = "L\xe4sion \xff\xc3";
+  const std::string events =
+      to_line(SceneRecord{.epoch = 3, .scene = no_text, .scan_hash = no_text, .structures = {no_text}}) +
+      to_line(StylusRecord{.epoch = 4, .name = no_text}) + to_line(Gap{.first_tick = 5, .ticks = 6});
+  Recording recording;
+  read_events(events, recording);
+  ASSERT_EQ(recording.scenes.size(), 1U);
+  EXPECT_EQ(recording.scenes[0].epoch, 3U);
+  ASSERT_EQ(recording.scenes[0].structures.size(), 1U);
+  EXPECT_THAT(recording.scenes[0].structures[0], ::testing::StartsWith("L\ufffdsion"));
+  ASSERT_EQ(recording.styluses.size(), 1U);
+  EXPECT_EQ(recording.styluses[0].epoch, 4U);
+  ASSERT_EQ(recording.gaps.size(), 1U);
+  EXPECT_EQ(recording.gaps[0].ticks, 6U);
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -43,6 +43,12 @@ io::MeasurementReport report_of(const Marks& marks) {
   for (const MarkedPath& path : marks.paths) {
     report.lengths.push_back({path.name + contact_in_words(path), path.points_mm, path.length_mm});
   }
+  for (const MarkedAngle& angle : marks.angles) {
+    const FeltMark &from = marks.points[angle.from], &at = marks.points[angle.at], &to = marks.points[angle.to];
+    report.angles.push_back({fmt::format("Angle at {}, from {} to {}", at.name, from.name, to.name),
+                             {from.position_mm, at.position_mm, to.position_mm},
+                             angle.degrees});
+  }
   return report;
 }
 
@@ -57,6 +63,9 @@ std::string report_in_words(const io::MeasurementReport& report, const std::stri
   }
   for (const io::MeasuredLength& length : report.lengths) {
     text += fmt::format("{}: {:.1f} mm\n", length.name, length.length_mm);
+  }
+  for (const io::MeasuredAngle& angle : report.angles) {
+    text += fmt::format("{}: {:.1f} degrees\n", angle.name, angle.degrees);
   }
   return text;
 }

@@ -300,7 +300,7 @@ TEST(Tables, SlicersMarkupsAreAtTheMarks) {
   }
 }
 
-TEST(Tables, AReportsPointsAndLengthsAreTheMarks) {
+TEST(Tables, AReportsPointsLengthsAndAnglesAreTheMarks) {
   const io::MeasurementReport report = report_of(marks());
   ASSERT_EQ(report.points.size(), 3U);
   for (std::size_t n = 0; n < 3; ++n) {
@@ -318,6 +318,10 @@ TEST(Tables, AReportsPointsAndLengthsAreTheMarks) {
   EXPECT_EQ(report.lengths[1].name, "P, 2.0 mm of it in contact");
   EXPECT_THAT(report.lengths[1].points_mm, ElementsAre(glm::dvec3(11, 12, 13), glm::dvec3(14, 16, 13)));
   EXPECT_EQ(report.lengths[1].length_mm, 5);
+  ASSERT_EQ(report.angles.size(), 1U);
+  EXPECT_EQ(report.angles[0].name, "Angle at A, left, from C to B");
+  EXPECT_THAT(report.angles[0].points_mm, ElementsAre(glm::dvec3(7, 8, 9), glm::dvec3(1, -2, 3), glm::dvec3(4, 5, -6)));
+  EXPECT_EQ(report.angles[0].degrees, 77.5);
 }
 
 /// It is shown before it is sent.
@@ -330,7 +334,8 @@ TEST(Tables, AReportIsReadInWords) {
             "C: L 7.0 P 8.0 H 9.0 mm, no boundary felt, 0.00 N\n"
             "B to C: 15.5 mm\n"
             "P, 2.0 mm of it in contact: 5.0 mm\n"
-            "Q, without contact: 3.0 mm\n");
+            "Q, without contact: 3.0 mm\n"
+            "Angle at A, left, from C to B: 77.5 degrees\n");
 }
 
 /// What else a stroke's charts show: who pushes where, what tissue is crossed, and how far each axis reaches.

@@ -44,6 +44,12 @@ std::map<std::filesystem::path, std::filesystem::path> fetched;
 
 }  // namespace
 
+std::filesystem::path structures_beside(const std::filesystem::path& recording) {
+  std::filesystem::path file = recording;
+  if (file.extension() == ".partial") file.replace_extension();
+  return file.string() + ".structures";
+}
+
 void set_fetched_files(std::map<std::filesystem::path, std::filesystem::path> here_by_name) {
   const std::lock_guard lock(fetched_mutex);
   fetched = std::move(here_by_name);

@@ -15,6 +15,10 @@ namespace palpate::plugin {
 /// 16 hexadecimal digits; all zero if the file cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
+/// The folder beside a recording with the structures that were felt and have no file of their own: label maps that came
+/// over the network. "a.h5.structures" for a.h5 and for a.h5.partial.
+std::filesystem::path structures_beside(const std::filesystem::path& recording);
+
 /// Sets the local copies of a server's files, by their names on the server, which scenes use. From any thread. Replaces
 /// those of the previous call.
 void set_fetched_files(std::map<std::filesystem::path, std::filesystem::path> here_by_name);

@@ -22,8 +22,8 @@ inline Bytes wire_of(const Message& message) {
 
 class SteppedServer {
  public:
-  SteppedServer()
-      : thread_([this] {
+  explicit SteppedServer(std::size_t most_bytes = most_request_bytes)
+      : server({.port = 0}, most_bytes), thread_([this] {
           while (!stop_) server.step(std::chrono::milliseconds(2));
         }) {}
   ~SteppedServer() {
@@ -33,7 +33,7 @@ class SteppedServer {
   SteppedServer(const SteppedServer&) = delete;
   SteppedServer& operator=(const SteppedServer&) = delete;
 
-  Server server{{.port = 0}};
+  Server server;
 
  private:
   std::atomic<bool> stop_{false};
