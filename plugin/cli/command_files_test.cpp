@@ -34,8 +34,6 @@ TEST(CommandFiles, OutputThatCannotBeWrittenIsToldByEveryCommand) {
       "--version",
       "info " + scan,
       "info --json " + scan,
-      "structures " + scan,
-      "structures --json " + scan,
       "sample " + scan + " --at 0,0,0",
       "suggest " + scan,
       "suggest " + scan + " -o " + fresh_path("full.json").string(),

@@ -1,5 +1,7 @@
 #include "plugin/cli/ready_session.h"
 
+#include <csignal>
+
 #include "device/simulated/simulated_stylus.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/session/felt_limits.h"
@@ -8,6 +10,7 @@
 namespace palpate::plugin {
 
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus) {
+  std::signal(SIGPIPE, SIG_IGN);  // the reader of the output may go: the session goes on
   // A real device's abilities are known only once it is open. It is closed with its last owner.
   const bool simulated_only = dynamic_cast<const device::SimulatedStylus*>(stylus.get()) != nullptr;
   if (!simulated_only) stylus->open();

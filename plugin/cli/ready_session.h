@@ -18,7 +18,8 @@ struct ReadySession {
   bool simulated = false;  ///< the stylus exists only in software
 };
 
-/// Loads the scan and plans the scene. Throws as open_scan(), scene_for() and follow_probe_path() do.
+/// Loads the scan and plans the scene. From now on a closed output pipe does not end the program. Throws as
+/// open_scan(), scene_for() and follow_probe_path() do.
 ReadySession prepare_session(const SessionOption& option, const std::shared_ptr<device::Stylus>& stylus);
 
 }  // namespace palpate::plugin
