@@ -32,10 +32,13 @@ bool has_left_overs(const fs::path& out) {
   return false;
 }
 
-/// A file may have 409 600 bytes, fewer than the recording has.
+/// A file may have three quarters of the bytes that the recording has.
 TEST(KeptRecordings, OfAFullDiskTheMessageNamesWhatCanBeRead) {
-  const fs::path out = fresh_path("full_disk");
-  const Outcome outcome = run_command("{ trap '' XFSZ; ulimit -f 800; " + probe_to(out) + "; } 2>&1");
+  const fs::path out = fresh_path("full_disk"), whole = fresh_path("whole");
+  ASSERT_EQ(run_command(probe_to(whole)).exit, 0);
+  const std::uintmax_t blocks = fs::file_size(whole / "recording.h5") / 512 * 3 / 4;
+  const Outcome outcome =
+      run_command("{ trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; " + probe_to(out) + "; } 2>&1");
   EXPECT_EQ(outcome.exit, 1) << outcome.output;
   const fs::path partial = out / "recording.h5.partial";
   EXPECT_THAT(outcome.output, HasSubstr("what was written before is in " + partial.string()));

@@ -11,6 +11,7 @@ namespace {
 
 constexpr auto between_batches = std::chrono::milliseconds(20);
 constexpr auto between_flushes = std::chrono::seconds(1);
+constexpr std::uint64_t most_unflushed = 2048;  // ticks
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t most_of_batch = 4096;  // ticks: bounds memory, and the time until an end is noticed
 
@@ -89,7 +90,7 @@ void Recorder::run() {
         return;
       }
       // By ticks, too: a session that does not wait for the clock may be over within a second.
-      if (options_.now() - flushed >= between_flushes || next() - flushed_tick >= most_of_batch) {
+      if (options_.now() - flushed >= between_flushes || next() - flushed_tick >= most_unflushed) {
         writer_.flush();
         flushed = options_.now();
         flushed_tick = next();

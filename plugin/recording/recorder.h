@@ -3,7 +3,7 @@
 /// Records a session while it runs: a separate thread takes the ticks from the ring and writes them. The servo never
 /// waits for it. A slow disk loses no ticks until the ring is full (TickRing::default_ticks: 65 s at 1 kHz); ticks lost
 /// after that are counted, and the loss is marked in the file. If the disk is full or gone, the recording ends but the
-/// session goes on; what was flushed (once a second, and every 4096 ticks) stays readable.
+/// session goes on; what was flushed (once a second, and every 2048 ticks) stays readable.
 
 #include <atomic>
 #include <chrono>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -45,8 +46,9 @@ std::string live_line(const TickRecord& tick, const std::string& tissue, double 
 LiveView::LiveView(const TickRing& ring, const modes::Scene& scene, std::string unit)
     : ring_(ring), scene_(scene), unit_(std::move(unit)) {}
 
+// Not by fmt::print, which throws where the terminal is gone: the session goes on.
 LiveView::~LiveView() {
-  fmt::print(stderr, "\r\033[K");
+  std::fputs("\r\033[K", stderr);
 }
 
 void LiveView::show() {
@@ -64,7 +66,7 @@ void LiveView::show() {
   }
   if (any) {
     const std::string tissue = printable(tissue_name(scene_, unit_, tick.value));  // a scene's file names it
-    fmt::print(stderr, "\r{}\033[K", live_line(tick, tissue, longest_us, missed_));
+    std::fputs(fmt::format("\r{}\033[K", live_line(tick, tissue, longest_us, missed_)).c_str(), stderr);
     std::fflush(stderr);
   }
 }
