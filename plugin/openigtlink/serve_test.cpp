@@ -45,7 +45,8 @@ struct Serving {
                 output) {}
 
   int port = free_port();
-  std::filesystem::path recording = fresh_path("served.h5"), output = fresh_path("serve.txt");
+  std::filesystem::path recording = fresh_path("served.h5"), structures = fresh_path("served.h5.structures"),
+                        output = fresh_path("serve.txt");
   Program program;
 };
 
@@ -214,8 +215,7 @@ TEST(OpenIgtServe, ASessionOnALabelMapIsReplayed) {
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // some of it is felt
   ASSERT_EQ(serving.program.end(SIGINT), 0);
-  const std::string said = plugin::testing::text_in(serving.output),
-                    folder = serving.recording.string() + ".structures";
+  const std::string said = plugin::testing::text_in(serving.output), folder = serving.structures.string();
   EXPECT_EQ(said.find("unrecorded"), std::string::npos) << said;
   EXPECT_NE(said.find("palpate: label map \"L\u00e4sion\": kept for replay in " + folder), std::string::npos) << said;
   const auto kept = std::filesystem::directory_iterator(folder);
