@@ -258,6 +258,11 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
     Mode mode = scene.modes[i];
     const ModeType& type = *find_mode_type(mode.type);
     add_boundary(scene, mode);
+    // Before its structures are looked up: they do not count against the limit.
+    if (auto left_out = why_left_out(mode, i, io::FieldSet::none)) {
+      plan.left_out.push_back(std::move(*left_out));
+      continue;
+    }
     Footprint footprint = type.footprint(mode);
     const std::vector<std::size_t> structures_before = plan.structures;
     StructureIndex index(scene, plan.structures);

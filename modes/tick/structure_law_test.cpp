@@ -364,5 +364,29 @@ TEST(StructurePlan, RefusesMoreThanItCanRead) {
   }
 }
 
+// What is off, or has no strength, is not read and does not count: first, last or between the others.
+TEST(StructurePlan, ModesThatAreOffDoNotCountAgainstTheLimit) {
+  const BallSource source;
+  for (const bool by_strength : {false, true}) {
+    for (std::size_t off = 0; off < 9; ++off) {
+      Scene scene;
+      for (std::size_t n = 0; n < 9; ++n) {
+        const std::string name = "s" + std::to_string(n);
+        scene.structures.push_back({.name = name, .file = "seg.dcm", .segment = name});
+        Mode mode;
+        mode.type = "keep_out";
+        mode.structure = name;
+        mode.strength_n = TransferFunction(n == off && by_strength ? 0.0 : 1.0);
+        mode.enabled = n != off || by_strength;
+        scene.modes.push_back(mode);
+      }
+      const Plan plan = make_plan(scene, source.available(), {});
+      EXPECT_EQ(plan.structures.size(), 8U) << off;
+      EXPECT_EQ(plan.modes.size(), 8U) << off;
+      EXPECT_EQ(std::ranges::count(plan.structures, off), 0) << off;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::modes
