@@ -1,7 +1,5 @@
 #include "plugin/cli/structure_option.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include "plugin/app/errors.h"
 #include "plugin/app/open_scan.h"
 #include "plugin/messages/messages.h"
+#include "plugin/structures/named_structure.h"
 #include "plugin/structures/study_registrations.h"
 #include "plugin/structures/study_structures.h"
 #include "solver/text/printable.h"
@@ -47,13 +46,14 @@ io::Structure choose_structure(const std::string& text) {
     const std::string why = found.skipped.empty() ? "" : ": " + found.skipped.front().reason;
     throw InputRefused(say("file-holds-no-structures", name, why));
   }
-  std::string known;
-  for (const io::Structure& one : found.structures) {
-    if (one.name == segment || std::to_string(one.number) == segment) return one;
-    known += fmt::format("{}{} {}", known.empty() ? "" : ", ", one.number, one.name);
+  if (!segment.empty()) {
+    const FoundStructure one = find_named(found.structures, asked_structure(segment), file);
+    if (one.structure == nullptr) throw InputRefused(one.why_not);
+    return *one.structure;
   }
-  if (!segment.empty()) throw InputRefused(say("file-has-no-such-structure", name, segment, known));
-  if (found.structures.size() > 1) throw WrongUsage(say("file-holds-several-structures", name, name, known));
+  if (found.structures.size() > 1) {
+    throw WrongUsage(say("file-holds-several-structures", name, name, listed(found.structures)));
+  }
   return found.structures.front();
 }
 

@@ -11,6 +11,8 @@ inline constexpr MessageRow scene_structures[] = {
      "`palpate structures` lists them",
      {{"file-holds-no-structures", "{} holds no structures{}"},
       {"file-has-no-such-structure", "{} has no \"{}\"; there are: {}"},
+      {"file-holds-several-of-that-name",
+       "{} holds several structures \"{}\": name one by its number, or its file; there are: {}"},
       {"file-holds-several-structures",
        "{} holds several structures: name one by its number or name, as {}:NUMBER; there are: {}"}}},
     {"two structures are compared",

@@ -17,6 +17,7 @@
 #include "io/structures/outline_change.h"
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
+#include "plugin/structures/named_structure.h"
 #include "plugin/structures/shared_distance.h"
 #include "plugin/structures/shared_edits.h"
 #include "plugin/structures/structure_files.h"
@@ -60,20 +61,16 @@ io::Structure find_structure(const modes::SceneStructure& wanted, const std::fil
   } catch (const io::DicomError& error) {
     refuse(wanted, error.text());
   }
-  std::string known;
-  for (io::Structure& structure : catalogue.structures) {
-    structure.file = file;
-    const bool is_it =
-        wanted.segment_number ? structure.number == *wanted.segment_number : structure.name == wanted.segment;
-    if (is_it) return structure;
-    known += fmt::format("{}{} {}", known.empty() ? "" : ", ", structure.number, structure.name);
-  }
-  if (known.empty()) {
+  if (catalogue.structures.empty()) {
     const std::string why = catalogue.skipped.empty() ? "" : ": " + catalogue.skipped.front().reason;
     refuse(wanted, say("file-holds-no-structures", file.filename().string(), why));
   }
-  const std::string asked = wanted.segment_number ? std::to_string(*wanted.segment_number) : wanted.segment;
-  refuse(wanted, say("file-has-no-such-structure", file.filename().string(), asked, known));
+  for (io::Structure& structure : catalogue.structures) structure.file = file;
+  AskedStructure asked{.number = wanted.segment_number, .name = std::nullopt};
+  if (!wanted.segment_number) asked.name = wanted.segment;
+  const FoundStructure found = find_named(catalogue.structures, asked, file);
+  if (found.structure == nullptr) refuse(wanted, found.why_not);
+  return *found.structure;
 }
 
 /// What else its file says of it, `palpate structures` tells.
