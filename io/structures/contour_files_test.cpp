@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "io/structures/edits.h"
 #include "io/structures/structure.h"
 #include "io/testing/test_image.h"
 
@@ -52,15 +53,17 @@ DcmItem& added_item(DcmItem& item, const DcmTagKey& sequence) {
   return *added;
 }
 
-/// A file with these ROIs, numbered from 1.
-std::vector<Structure> rois_in(const std::vector<std::vector<RoiContour>>& rois, const TestFolder& folder) {
+/// A file with these ROIs, numbered from 1; or with all of them as items of ROI 1.
+std::vector<Structure> rois_in(const std::vector<std::vector<RoiContour>>& rois, const TestFolder& folder,
+                               bool is_one = false) {
   internal::TestImage image;
   image.edit = [&](DcmDataset& dataset) {
     dataset.findAndDeleteElement(DCM_PixelData);
     internal::put(dataset, DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.481.3");
     for (std::size_t n = 0; n < rois.size(); ++n) {
-      const std::string number = std::to_string(n + 1);
-      added_item(dataset, DCM_StructureSetROISequence).putAndInsertString(DCM_ROINumber, number.c_str());
+      const std::string number = std::to_string(is_one ? 1 : n + 1);
+      if (n == 0 || !is_one)
+        added_item(dataset, DCM_StructureSetROISequence).putAndInsertString(DCM_ROINumber, number.c_str());
       DcmItem& drawn = added_item(dataset, DCM_ROIContourSequence);
       drawn.putAndInsertString(DCM_ReferencedROINumber, number.c_str());
       for (const RoiContour& contour : rois[n]) {
@@ -160,6 +163,64 @@ TEST(ContourFiles, AnExclusiveOrTakesAwayWhatTwoHold) {
   }
   const auto found = rois_in({contours}, folder);
   EXPECT_NEAR(measure(found.at(0)).volume_mm3, 4 * (circle_area(10, 40) - circle_area(7, 40)), 1e-3);
+}
+
+// A plane alone is as thick as the scan's voxels, whether it is drawn or read, and wherever it lies between two slices.
+TEST(ContourFiles, APlaneAloneIsTheSameReadAndDrawn) {
+  for (const double slices_mm : {0.3, 1.0, 5.0}) {
+    for (const double height : {0.0, 0.35, -0.1}) {
+      Geometry scan;
+      scan.dimensions = {60, 60, 41};
+      scan.step = {0, 0, slices_mm};
+      for (int k = -20; k <= 20; ++k) scan.slice_positions.emplace_back(-30, -30, k * slices_mm);
+      DistanceOptions options;
+      options.scan = &scan;
+      const RoiContour circle{.radius = 10, .height = height * slices_mm};
+      const TestFolder folder;
+      const auto read = load_distance(rois_in({{circle}}, folder).at(0), options);
+      ContoursEdit drawn{.loops_mm = {{}}};
+      for (int n = 0; n < circle.points; ++n) {
+        const double angle = 2 * std::numbers::pi * n / circle.points;
+        drawn.loops_mm[0].emplace_back(10 * std::cos(angle), 10 * std::sin(angle), circle.height);
+      }
+      EditOptions edit;
+      edit.distance.scan = &scan;
+      const auto made = apply_edit(nullptr, drawn, edit);
+      double most = 0;
+      for (double z = -1.5; z <= 1.5; z += 0.1) {
+        for (double x = 0; x < 14; x += 0.7) {
+          const Vec3 at(x, 0.4 * x, z * slices_mm);
+          most = std::max(most, std::abs(made->sample(at).mm - read->sample(at).mm));
+        }
+      }
+      EXPECT_LT(most, 0.05) << slices_mm << ' ' << height;
+    }
+  }
+}
+
+// Programs may write several items of one ROI: each adds its contours, in any order.
+TEST(ContourFiles, ItemsOfOneRoiAddTheirContours) {
+  std::vector<std::vector<RoiContour>> parts(3);
+  for (int k = 0; k < 12; ++k) parts[static_cast<std::size_t>(k % 3)].push_back({.height = 2.0 * k});
+  std::vector<RoiContour> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  const TestFolder folder;
+  const StructureMeasures whole = measure(rois_in({all}, folder).at(0));
+  for (int turn = 0; turn < 3; ++turn) {
+    const TestFolder other;
+    const Structure one = rois_in(parts, other, true).at(0);
+    EXPECT_TRUE(one.unfit.empty()) << one.unfit;
+    EXPECT_EQ(measure(one).contours, 12U);
+    EXPECT_NEAR(measure(one).volume_mm3, whole.volume_mm3, 1e-6);
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+  }
+  // One without a contour, first or last, takes nothing away.
+  for (const auto& with_none : {std::vector{all, std::vector<RoiContour>()}, {{}, all}}) {
+    const TestFolder other;
+    const Structure one = rois_in(with_none, other, true).at(0);
+    EXPECT_TRUE(one.unfit.empty()) << one.unfit;
+    EXPECT_NEAR(measure(one).volume_mm3, whole.volume_mm3, 1e-6);
+  }
 }
 
 }  // namespace

@@ -172,6 +172,20 @@ ContourStack stack_of(const std::vector<Contour>& contours, const ContourRule& r
   return stack;
 }
 
+double thickness_of_voxels(const Geometry& scan, const Vec3& normal) {
+  const Vec3 across = glm::cross(scan.direction_i, scan.direction_j);
+  double best = 0, thickness = 0;
+  for (const auto& [axis, spacing] : {std::pair{across, scan.slice_spacing()},
+                                      {scan.direction_i, scan.spacing_i},
+                                      {scan.direction_j, scan.spacing_j}}) {
+    if (const double along = std::abs(glm::dot(axis, normal)); along > best) {
+      best = along;
+      thickness = spacing;
+    }
+  }
+  return thickness;
+}
+
 bool is_one_body(const ContourStack& stack, double apart_mm) {
   return apart_mm <= most_missing * stack.step_mm;
 }

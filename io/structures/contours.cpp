@@ -33,22 +33,8 @@ using internal::text_of;
 struct Roi {
   std::vector<Contour> contours;
   ContourRule rule;
+  bool is_broken = false;  ///< one of its items cannot be read
 };
-
-/// The extent of the scan's voxels along the normal of the contours: of the axes nearest to it.
-double thickness_of_voxels(const Geometry& scan, const Vec3& normal) {
-  const Vec3 across = glm::cross(scan.direction_i, scan.direction_j);
-  double best = 0, thickness = 0;
-  for (const auto& [axis, spacing] : {std::pair{across, scan.slice_spacing()},
-                                      {scan.direction_i, scan.spacing_i},
-                                      {scan.direction_j, scan.spacing_j}}) {
-    if (const double along = std::abs(glm::dot(axis, normal)); along > best) {
-      best = along;
-      thickness = spacing;
-    }
-  }
-  return thickness;
-}
 
 /// The ROIs of one file.
 class ContourSource final : public StructureSource {
@@ -142,6 +128,42 @@ Roi closed_contours(DcmItem& item_of_roi, Text& unfit, std::vector<Text>& warnin
   return roi;
 }
 
+/// The contours of one item. Some files hold several items of a ROI: its contours are those of all.
+void add_contours(DcmItem& item, Roi& roi, Structure& structure) {
+  if (const std::string color = color_of_rgb(numbers_of(item, DCM_ROIDisplayColor)); !color.empty()) {
+    structure.color = color;
+  }
+  if (roi.is_broken) return;
+  try {
+    Text unfit;
+    Roi more = closed_contours(item, unfit, structure.warnings);
+    std::ranges::move(more.contours, std::back_inserter(roi.contours));
+    roi.rule.is_exclusive = roi.rule.is_exclusive || more.rule.is_exclusive;
+    roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, more.rule.thickness_mm);
+    structure.unfit = roi.contours.empty() ? unfit : Text();
+  } catch (const DicomError& error) {
+    structure.unfit = error.text();
+    roi.is_broken = true;
+  }
+}
+
+/// Refuses what does not lie in parallel planes. Returns how far apart the planes of each of the others lie.
+std::vector<double> check_planes(const std::map<int, Roi>& rois, std::map<int, Structure>& structures) {
+  std::vector<double> steps_mm;
+  for (const auto& [number, roi] : rois) {
+    Structure& structure = structures.at(number);
+    if (!structure.unfit.empty()) continue;
+    try {
+      const ContourStack stack = stack_of(roi.contours, roi.rule);
+      std::ranges::copy(stack.warnings, std::back_inserter(structure.warnings));
+      if (stack.planes.size() > 1) steps_mm.push_back(stack.step_mm);
+    } catch (const DicomError& error) {
+      structure.unfit = error.text();
+    }
+  }
+  return steps_mm;
+}
+
 /// A plane alone is as thick as the planes of the file's other ROIs are apart: all lie on the same scan.
 void give_thickness(std::map<int, Roi>& rois, std::vector<double> steps_mm) {
   if (steps_mm.empty()) return;
@@ -173,24 +195,12 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
     throw DicomError(say("names-no-roi"));
   }
   std::map<int, Roi> rois;
-  std::vector<double> steps_mm;
   for_items(dataset, DCM_ROIContourSequence, [&](DcmItem& item) {
     const auto found = structures.find(
         static_cast<int>(std::clamp(number_of(item, DCM_ReferencedROINumber).value_or(-2e9), -2e9, 2e9)));
-    if (found == structures.end()) return;
-    Structure& structure = found->second;
-    structure.color = color_of_rgb(numbers_of(item, DCM_ROIDisplayColor));
-    structure.unfit.clear();
-    try {
-      const Roi& roi = rois[structure.number] = closed_contours(item, structure.unfit, structure.warnings);
-      if (!structure.unfit.empty()) return;
-      const ContourStack stack = stack_of(roi.contours, roi.rule);  // refuses what does not lie in parallel planes
-      std::ranges::copy(stack.warnings, std::back_inserter(structure.warnings));
-      if (stack.planes.size() > 1) steps_mm.push_back(stack.step_mm);
-    } catch (const DicomError& error) {
-      structure.unfit = error.text();
-    }
+    if (found != structures.end()) add_contours(item, rois[found->first], found->second);
   });
+  std::vector<double> steps_mm = check_planes(rois, structures);
   give_thickness(rois, std::move(steps_mm));
   const auto source = std::make_shared<const ContourSource>(std::move(rois));
   std::vector<Structure> list;

@@ -9,6 +9,10 @@ namespace palpate::io::internal {
 
 using Field = std::shared_ptr<const DistanceField>;
 
+/// A path without the points that are nearer than `mm` to the last one kept. Both ends are kept; no point of the old
+/// path is farther than that from the new one.
+std::vector<Vec3> thinned_path(const std::vector<Vec3>& path, double mm);
+
 /// Each throws InvalidInput with a reason that does not name the edit.
 Field traced(const Field& before, const TraceEdit& edit, int threads, EditOutcome& outcome);
 Field joined(const Field& before, const Tube& tube, int threads, EditOutcome& outcome);

@@ -85,9 +85,13 @@ internal::Field applied(const internal::Field& before, const ContoursEdit& edit,
   }
   outcome.points = points;
   try {
-    const ContourStack stack = stack_of(edit.loops_mm);
     DistanceOptions distance = options.distance;
     distance.threads = options.threads;
+    ContourRule rule;
+    if (distance.scan != nullptr) {
+      rule.thickness_mm = thickness_of_voxels(*distance.scan, stack_of(edit.loops_mm).axes[2]);
+    }
+    const ContourStack stack = stack_of(edit.loops_mm, rule);
     return std::make_shared<const DistanceField>(planes_of(stack, distance), distance);
   } catch (const DicomError& error) {
     throw InvalidInput(error.text());

@@ -40,7 +40,20 @@ struct Corrected {
   io::StructureLabel label;
 };
 
-Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& scan) {
+/// As far as the edge may move: how far it did is read from the distances there.
+double reach_of(const std::vector<io::Edit>& edits) {
+  constexpr double most_mm = 20;
+  double reach = io::DistanceOptions().reach_mm;
+  for (const io::Edit& edit : edits) {
+    if (const auto* const add = std::get_if<io::AddEdit>(&edit)) reach = std::max(reach, 2 * add->tube.radius_mm);
+    if (const auto* const remove = std::get_if<io::RemoveEdit>(&edit)) {
+      reach = std::max(reach, 2 * remove->tube.radius_mm);
+    }
+  }
+  return std::min(reach, most_mm);
+}
+
+Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& scan, double reach_mm) {
   if (options.structure.empty()) {
     std::string name = options.name.empty() ? options.output.filename().string() : options.name;
     if (options.name.empty()) name.resize(std::min(name.find('.', 1), name.size()));
@@ -49,6 +62,7 @@ Corrected what_is_corrected(const CorrectOptions& options, const io::Volume& sca
   const io::Structure structure = choose_structure(options.structure, scan);
   io::DistanceOptions distance;
   distance.scan = &scan.geometry;
+  distance.reach_mm = reach_mm;
   return {.field = io::load_distance(structure, distance), .label = io::label_of(structure)};
 }
 
@@ -70,7 +84,12 @@ io::Edited edited(const Corrected& before, const std::vector<io::Edit>& edits,
 void print(const std::vector<io::Edit>& edits, const io::Edited& done) {
   for (std::size_t n = 0; n < edits.size(); ++n) {
     const io::EditOutcome& outcome = done.outcomes[n];
-    put("edit {}: {}: the edge moved by {:.2f} mm at most", n + 1, io::name_of(edits[n]), outcome.largest_mm);
+    put("edit {}: {}: ", n + 1, io::name_of(edits[n]));
+    if (std::holds_alternative<io::ContoursEdit>(edits[n])) {
+      put("a new outline");
+    } else {
+      put("the edge moved by {:.2f} mm at most", outcome.largest_mm);
+    }
     if (std::holds_alternative<io::ScanEdgeEdit>(edits[n])) {
       put("; {} places of it were looked at", outcome.points);
     } else if (outcome.points > 0) {
@@ -89,7 +108,7 @@ void run_correct(const CorrectOptions& options) try {
   if (options.structure.empty() && !anew) throw WrongUsage(say("edits-need-a-structure"));
   const io::Series series = choose_series(options.series);
   const auto scan = std::make_shared<const io::Volume>(open_scan(series, options.series.frame));
-  const Corrected before = what_is_corrected(options, *scan);
+  const Corrected before = what_is_corrected(options, *scan, reach_of(edits));
   const io::Edited after = [&] {
     try {
       return edited(before, edits, scan);

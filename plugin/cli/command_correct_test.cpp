@@ -128,6 +128,23 @@ TEST(CommandCorrect, PathsAreAddedAndRemoved) {
   EXPECT_GT(core.largest_mm((core.folder / "removed.mha").string()), 8);
 }
 
+// A ball on the core's surface bulges by its radius, and one that lies farther out by as much more.
+TEST(CommandCorrect, SaysHowFarABallMovesTheEdge) {
+  const CutCore core;
+  for (const double outside : {0.0, 2.0}) {
+    for (const std::string type : {"add", "remove"}) {
+      const double at = type == "add" ? core_mm + outside : core_mm - outside;
+      const Json ball{{"type", type}, {"path_mm", {{0, at, 0}}}, {"radius_mm", 4}};
+      const Outcome outcome = core.correct(core.edits({ball}), "ball.mha", "--force --structure " + core.whole);
+      ASSERT_EQ(outcome.exit, 0) << outcome.output;
+      const std::string before = "edit 1: " + type + ": the edge moved by ";
+      const std::size_t found = outcome.output.find(before);
+      ASSERT_NE(found, std::string::npos) << outcome.output;
+      EXPECT_NEAR(std::stod(outcome.output.substr(found + before.size())), 4 + outside, 0.3) << type;
+    }
+  }
+}
+
 TEST(CommandCorrect, ContoursMakeANewOneInEveryForm) {
   const CutCore core;
   Json loops = Json::array();
@@ -145,6 +162,7 @@ TEST(CommandCorrect, ContoursMakeANewOneInEveryForm) {
     const Outcome outcome = core.correct(edits, name, name == "anew-rt.dcm" ? "--rtstruct" : "");
     ASSERT_EQ(outcome.exit, 0) << name << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr(name == "anew-rt.dcm" ? "\"anew-rt\"" : "\"anew\"")) << name;
+    EXPECT_THAT(outcome.output, HasSubstr("edit 1: contours: a new outline, through "));
     const std::string written = (core.folder / name).string();
     EXPECT_LT(core.largest_mm(written), 1.1) << name;
     const auto found = io::find_structures(std::array{fs::path(written)}).structures;
