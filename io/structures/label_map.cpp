@@ -3,8 +3,10 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "io/errors.h"
 #include "io/interchange/voxel_bytes.h"
@@ -17,6 +19,18 @@ namespace palpate::io {
 namespace {
 
 constexpr double most_label = 65535;
+constexpr double rounding = 1e-4;  // of labels that were scaled
+constexpr int no_label = -1;
+
+/// The label of a value: 0 is the background, as are -1 and what is no number. `no_label` if it is none. Any other
+/// negative number is one of a scan, unless the user says that these are labels.
+int label_of(double value, bool is_named) {
+  if (std::isnan(value)) return 0;
+  const double whole = std::round(value);
+  if (std::abs(value - whole) > rounding) return no_label;
+  if (whole < 0) return whole == -1 || is_named ? 0 : no_label;
+  return static_cast<int>(std::min(whole, most_label + 1));
+}
 
 struct Box {
   glm::ivec3 low{std::numeric_limits<int>::max()}, high{-1};
@@ -64,7 +78,7 @@ class LabelMapSource final : public MaskSource {
       for (int j = low.y; j <= high.y; ++j) {
         for (int i = low.x; i <= high.x; ++i) {
           const std::size_t voxel = static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i);
-          if (values[voxel * layers + layer] == value) {
+          if (std::abs(values[voxel * layers + layer] - value) <= rounding) {
             mask.occupancy[mask.offset(i - low.x, j - low.y, k - low.z)] = Mask::full;
           }
         }
@@ -78,52 +92,82 @@ class LabelMapSource final : public MaskSource {
   std::map<int, Box> boxes_;
 };
 
-/// The box of each label, by its number; nothing if the values are those of an image and not labels.
-std::optional<std::map<int, Box>> boxes_in(const VoxelFile& image) {
-  constexpr std::size_t most_labels = 4096;
-  std::map<int, Box> boxes;
-  std::uint64_t inside = 0,
-                changes = 0;  // voxels with a label, and those of them that the one before them differs from
-  bool is_map = true;
-  // Labels come in stretches; an image's values differ from voxel to voxel.
-  constexpr std::uint64_t least_stretch = 3, enough = 1'000'000;
-  const auto looks_like_an_image = [&] {
-    return !image.said_to_be_labels && changes * least_stretch > inside && boxes.size() > 2;
-  };
-  const int columns = image.geometry.dimensions.x;
-  const auto layers = static_cast<std::size_t>(image.layers);
-  const auto look_at = [&](int k, std::size_t layer, std::span<const double> values) {
-    double before = 0;
-    Box* box = nullptr;  // of the label before
-    for (std::size_t n = 0; n < values.size() / layers; ++n) {
-      const double value = values[n * layers + layer];
-      const bool same = value == before;
-      if (value == 0) {
-        before = 0;
-        continue;
-      }
-      if (!same) {
-        if (!(value > 0 && value <= most_label) || value != std::floor(value)) return is_map = false;
-        box = &boxes[label_number(static_cast<int>(layer), static_cast<int>(value))];
-        if (boxes.size() > most_labels) return is_map = false;
-        before = value;
-        ++changes;
-      }
-      ++inside;
-      const auto at = static_cast<int>(n);
-      const glm::ivec3 voxel(at % columns, at / columns, k);
-      box->low = glm::min(box->low, voxel);
-      box->high = glm::max(box->high, voxel);
+/// The labels of a file, as its slices are read.
+class Labels {
+ public:
+  Labels(const VoxelFile& image, bool is_named)
+      : image_(image), is_named_(is_named), below_(image.numbers_of_slice(), 0), here_(below_) {}
+
+  /// Returns whether more is to be read.
+  bool take(int k, std::span<const double> values) {
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      here_[n] = label_of(values[n], is_named_);
+      if (here_[n] == no_label) return is_map_ = false;
     }
-    if (inside > enough && looks_like_an_image()) is_map = false;
-    return is_map;
-  };
-  read_slices(image, [&](int k, std::span<const double> values) {
-    for (std::size_t layer = 0; layer < layers && is_map; ++layer) look_at(k, layer, values);
-    return is_map;
-  });
-  if (looks_like_an_image()) is_map = false;
-  return is_map ? std::optional(boxes) : std::nullopt;
+    for (std::size_t n = 0; n < values.size() && is_map_; ++n) {
+      if (here_[n] != 0) look_at(n, k);
+    }
+    std::swap(below_, here_);
+    has_below_ = true;
+    constexpr std::uint64_t enough = 1'000'000;
+    if (pairs_ > enough && looks_like_an_image()) is_map_ = false;
+    return is_map_;
+  }
+  bool is_map() const { return is_map_ && !looks_like_an_image(); }
+  /// Whether a label is above the largest one that is read.
+  bool is_too_large() const { return is_map() && too_large_ > 0; }
+  const std::map<int, Box>& boxes() const { return boxes_; }
+
+ private:
+  void look_at(std::size_t n, int k) {
+    const auto layers = static_cast<std::size_t>(image_.layers);
+    const auto columns = static_cast<std::size_t>(image_.geometry.dimensions.x);
+    const std::size_t voxel = n / layers;
+    const auto compare = [&](bool is_there, const std::vector<int>& labels, std::size_t back) {
+      if (!is_there) return;
+      ++pairs_;
+      changes_ += labels[n - back] == here_[n] ? 0 : 1;
+    };
+    compare(voxel % columns > 0, here_, layers);
+    compare(voxel >= columns, here_, layers * columns);
+    compare(has_below_, below_, 0);
+    if (here_[n] > static_cast<int>(most_label)) {
+      ++too_large_;
+      return;
+    }
+    const auto layer = static_cast<int>(n % layers);
+    if (here_[n] != last_label_ || layer != last_layer_) {
+      last_ = &boxes_[label_number(layer, here_[n])];
+      last_label_ = here_[n];
+      last_layer_ = layer;
+      if (boxes_.size() > most_labels()) is_map_ = false;
+    }
+    const glm::ivec3 at(static_cast<int>(voxel % columns), static_cast<int>(voxel / columns), k);
+    last_->low = glm::min(last_->low, at);
+    last_->high = glm::max(last_->high, at);
+  }
+  std::size_t most_labels() const { return is_named_ && !image_.said_to_be_labels ? 256 : 4096; }
+  /// Labels adjoin themselves along all axes; an image's values differ from voxel to voxel.
+  bool looks_like_an_image() const {
+    constexpr std::uint64_t least = 3;
+    return !is_named_ && !image_.said_to_be_labels && changes_ * least > pairs_ && boxes_.size() > 2;
+  }
+
+  const VoxelFile& image_;
+  bool is_named_;
+  std::map<int, Box> boxes_;
+  std::vector<int> below_, here_;  // of the slice below and of this one
+  bool has_below_ = false, is_map_ = true;
+  std::uint64_t pairs_ = 0, changes_ = 0;  // voxels with a label and those before them; and where the two differ
+  std::uint64_t too_large_ = 0;
+  Box* last_ = nullptr;
+  int last_label_ = 0, last_layer_ = -1;
+};
+
+Labels labels_in(const VoxelFile& image, bool is_named) {
+  Labels labels(image, is_named);
+  read_slices(image, [&](int k, std::span<const double> values) { return labels.take(k, values); });
+  return labels;
 }
 
 /// "liver" for "liver.nii.gz": the organ's name in a folder with one mask a file.
@@ -143,10 +187,11 @@ std::string organ_of(std::filesystem::path file) {
 bool is_label_map(const VoxelFile& file) {
   const bool may_be = file.frames() == 1 && file.beside == VoxelFile::Beside::labels;
   if (!may_be || file.axes != std::array{0, 1, 2}) return false;
-  return boxes_in(file).has_value();
+  const Labels labels = labels_in(file, false);
+  return labels.is_map() && !labels.is_too_large();
 }
 
-std::vector<Structure> structures_of_label_map(const std::filesystem::path& path) {
+std::vector<Structure> structures_of_label_map(const std::filesystem::path& path, bool is_named) {
   auto image = open_voxel_file(path, path);
   if (!image) return {};
   if (image->beside == VoxelFile::Beside::colors) {
@@ -155,9 +200,13 @@ std::vector<Structure> structures_of_label_map(const std::filesystem::path& path
   if (image->frames() > 1) throw DicomError(say("labels-in-several-volumes"));
   check_size(*image);
   if (image->axes != std::array{0, 1, 2}) throw DicomError(say("labels-in-another-order"));
-  const auto found = boxes_in(*image);
-  if (!found) return {};
-  const std::map<int, Box>& boxes = *found;
+  const Labels labels = labels_in(*image, is_named);
+  if (labels.is_too_large()) throw DicomError(say("labels-are-too-large"));
+  if (!labels.is_map()) {
+    if (is_named) throw DicomError(say("values-are-no-labels"));
+    return {};
+  }
+  const std::map<int, Box> boxes = labels.boxes();
   const std::map<int, LabelName> names = image->names;
   const std::vector<Text> remarks = image->remarks;
   const std::filesystem::path voxels_at = image->voxels_at;

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <glm/vec3.hpp>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "io/errors.h"
@@ -258,11 +262,102 @@ TEST(LabelMap, ASegmentThatIsNamedAndNotOutlinedIsListedAndRefused) {
   }
 }
 
-TEST(LabelMap, AnImageIsNone) {
+/// Voxels of 1 mm, of 32-bit floating-point numbers or integers.
+template <typename Number>
+fs::path written_volume(const glm::ivec3& size, const std::function<double(const glm::ivec3&)>& value) {
+  Nifti file;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    file.put(42 + 2 * axis, static_cast<std::int16_t>(size[static_cast<int>(axis)]));
+  }
+  const std::int16_t type = std::is_integral_v<Number> ? 8 : 16;
+  file.put(70, type).put(72, std::int16_t{32});
+  std::string bytes;
+  for (int n = 0; n < size.x * size.y * size.z; ++n) {
+    const auto number = static_cast<Number>(value({n % size.x, n / size.x % size.y, n / size.x / size.y}));
+    std::array<char, sizeof(Number)> raw{};
+    std::memcpy(raw.data(), &number, sizeof number);
+    bytes.append(raw.data(), raw.size());
+  }
+  return write("volume.nii", file.start() + bytes);
+}
+
+/// Label 1 in a box, 2 in another one, `background` elsewhere.
+double two_boxes(const glm::ivec3& at, double background) {
+  if (at.y < 2 || at.y > 5 || at.z < 1 || at.z > 6) return background;
+  return at.x < 4 ? 1 : (at.x < 9 ? 2 : background);
+}
+
+void expect_two_boxes(const fs::path& file, const std::string& what) {
+  for (const bool is_named : {true, false}) {
+    const StructureCatalogue found = find_structures(std::array{is_named ? file : file.parent_path()});
+    ASSERT_EQ(found.structures.size(), 2U) << what << (found.skipped.empty() ? Text() : found.skipped[0].reason);
+    EXPECT_EQ(measure(found.structures[0]).voxels, 4U * 4U * 6U) << what;
+    EXPECT_EQ(measure(found.structures[1]).voxels, 5U * 4U * 6U) << what;
+  }
+}
+
+// Programs scale labels, fill what they do not know with NaN, and call the background -1.
+TEST(LabelMap, LabelsAreRoundedAndTheBackgroundIsWhatIsNoLabel) {
+  const glm::ivec3 size(14, 9, 8);
+  for (const double scale : {1.0, 1.00000006, 0.99999994, 1.00003}) {
+    for (const double background : {0.0, 3e-5, -1.0, static_cast<double>(NAN)}) {
+      const auto value = [&](const glm::ivec3& at) {
+        const double label = two_boxes(at, background);
+        return label > 0.5 ? label * scale : label;
+      };
+      expect_two_boxes(written_volume<float>(size, value), std::to_string(scale) + ' ' + std::to_string(background));
+    }
+  }
+  const auto half = [](const glm::ivec3& at) { return 0.5 * two_boxes(at, 0); };
+  const fs::path file = written_volume<float>(size, half);
+  EXPECT_TRUE(find_structures(std::array{file.parent_path()}).structures.empty()) << "half of one is no label";
+}
+
+// A structure may be thin along any axis.
+TEST(LabelMap, ThinLabelsAreLabels) {
+  for (int thin = 0; thin < 3; ++thin) {
+    const auto value = [&](const glm::ivec3& at) {
+      const int across = at[thin];  // three plates of two voxels
+      return across % 4 < 2 ? across / 4 + 1.0 : 0.0;
+    };
+    const fs::path file = written_volume<std::int32_t>(glm::ivec3(11), value);
+    const StructureCatalogue found = find_structures(std::array{file.parent_path()});
+    ASSERT_EQ(found.structures.size(), 3U) << thin;
+    for (const Structure& one : found.structures) EXPECT_EQ(measure(one).voxels, 2U * 11U * 11U);
+  }
+}
+
+TEST(LabelMap, LabelsThatAreTooLargeAreRefusedInWords) {
+  const auto value = [](const glm::ivec3& at) { return two_boxes(at, 0) * 40'000; };
+  const fs::path file = written_volume<std::int32_t>({14, 9, 8}, value);
+  for (const fs::path& place : {file, file.parent_path()}) {
+    const StructureCatalogue found = find_structures(std::array{place});
+    EXPECT_TRUE(found.structures.empty());
+    ASSERT_EQ(found.skipped.size(), 1U);
+    EXPECT_EQ(found.skipped[0].reason, "a label of it is above 65535: renumber its labels");
+  }
+}
+
+// In a folder an image is a scan. A file that the user names as a label map is one, or it is refused with a reason.
+TEST(LabelMap, AnImageIsNoneUnlessTheUserNamesIt) {
   std::string noise(12, '\0');
   for (std::size_t n = 0; n < noise.size(); ++n) noise[n] = static_cast<char>(n + 1);
-  EXPECT_TRUE(find_structures(std::array{write("image.nii", Nifti().put<std::int16_t>(252, 1).start() + noise)})
-                  .structures.empty());
+  const fs::path few = write("image.nii", Nifti().start() + noise);
+  EXPECT_TRUE(find_structures(std::array{few.parent_path()}).structures.empty());
+  EXPECT_EQ(find_structures(std::array{few}).structures.size(), 12U);
+  const auto values = [](const glm::ivec3& at) { return (at.x * 131 + at.y * 71 + at.z * 37) % 1999 + 1; };
+  const auto scan = [](const glm::ivec3& at) { return at.x + 0.3 * at.y - 5.0; };
+  for (const bool is_whole : {true, false}) {
+    const fs::path image =
+        is_whole ? written_volume<std::int32_t>(glm::ivec3(12), values) : written_volume<float>(glm::ivec3(12), scan);
+    const StructureCatalogue in_folder = find_structures(std::array{image.parent_path()});
+    EXPECT_TRUE(in_folder.structures.empty() && in_folder.skipped.empty());
+  }
+  const StructureCatalogue named = find_structures(std::array{written_volume<float>(glm::ivec3(12), scan)});
+  EXPECT_TRUE(named.structures.empty());
+  ASSERT_EQ(named.skipped.size(), 1U);
+  EXPECT_EQ(named.skipped[0].reason,
+            "its values are no labels, which are whole numbers from 1 to 65535: name a label map");
 }
 
 std::string refusal_of(const fs::path& file) {

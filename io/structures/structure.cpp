@@ -32,9 +32,9 @@ constexpr const char* label_map_segmentation_storage = "1.2.840.10008.5.1.4.1.1.
 constexpr const char* surface_segmentation_storage = "1.2.840.10008.5.1.4.1.1.66.5";
 constexpr const char* structure_set_storage = "1.2.840.10008.5.1.4.1.1.481.3";
 
-/// The contents of a file; nothing if it is of another type.
-StructureCatalogue structures_in(const fs::path& path) {
-  if (std::vector<Structure> labels = structures_of_label_map(path); !labels.empty())
+/// The contents of a file; nothing if it is of another type. `is_named`: by the user, and not by its folder.
+StructureCatalogue structures_in(const fs::path& path, bool is_named) {
+  if (std::vector<Structure> labels = structures_of_label_map(path, is_named); !labels.empty())
     return {std::move(labels), {}, {}};
   std::optional<internal::InputFile> file;
   internal::DatasetStart start;
@@ -113,7 +113,7 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
       files.size(),
       [&](std::size_t n) {
         try {
-          found[n] = structures_in(files[n]);
+          found[n] = structures_in(files[n], std::ranges::find(paths, files[n]) != paths.end());
         } catch (const Refusal& error) {
           reasons[n] = error.text();
         } catch (const std::exception& error) {

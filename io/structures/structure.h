@@ -84,7 +84,9 @@ struct StructureCatalogue {
   std::vector<SkippedFile> skipped;         ///< files that claim to hold structures but do not
 };
 
-/// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored.
+/// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored. In a
+/// folder, a file that holds labels or an image is a label map if its values look like labels; if the file itself is
+/// named, it is tried anyway.
 /// Throws DicomError if a path does not exist, and Cancelled.
 StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
