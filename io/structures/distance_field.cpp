@@ -172,7 +172,7 @@ std::shared_ptr<const DistanceField> distance_of(const Mask& mask, const Distanc
   if (!any) {
     throw InvalidInput(say("no-voxel-inside"));
   }
-  return std::make_shared<const DistanceField>(planes_of(mask, options.reach_mm), options);
+  return std::make_shared<const DistanceField>(planes_of(mask, options.reach_mm, options.scan), options);
 }
 
 }  // namespace palpate::io

@@ -15,17 +15,13 @@ constexpr float not_told = std::numeric_limits<float>::quiet_NaN();
 /// The voxels around one, from 0 to 1.
 class Around {
  public:
-  Around(const Mask& mask, int i, int j, int k) {
-    const glm::ivec3 last = mask.geometry.dimensions - 1;
+  Around(const ContinuedMask& mask, int i, int j, int k) {
     for (int n = 0; n < 27; ++n) {
-      const glm::ivec3 at =
-          glm::clamp(glm::ivec3(i + n % 3 - 1, j + n / 3 % 3 - 1, k + n / 9 - 1), glm::ivec3(0), last);
-      const glm::ivec3 in = at - mask.low;
-      const bool held =
-          in.x >= 0 && in.y >= 0 && in.z >= 0 && in.x < mask.size.x && in.y < mask.size.y && in.z < mask.size.z;
-      shares_[static_cast<std::size_t>(n)] =
-          held ? static_cast<double>(mask.occupancy[mask.offset(in.x, in.y, in.z)]) / Mask::full : 0;
+      shares_[static_cast<std::size_t>(n)] = share_of(mask, {i + n % 3 - 1, j + n / 3 % 3 - 1, k + n / 9 - 1});
     }
+  }
+  static double share_of(const ContinuedMask& mask, const glm::ivec3& voxel) {
+    return static_cast<double>(mask.occupancy(voxel)) / Mask::full;
   }
   double at(int x, int y, int z) const { return shares_.data()[(z + 1) * 9 + (y + 1) * 3 + x + 1]; }
 
@@ -91,15 +87,16 @@ double plane_distance(const Vec3& size, const Vec3& normal, double share) {
   return 0.5 * (low + high) - 0.5 * sum;
 }
 
-float edge_distance(const Mask& mask, int i, int j, int k) {
-  const Around around(mask, i, j, k);
-  const double share = around.at(0, 0, 0);
-  const Geometry& geometry = mask.geometry;
-  const Vec3 size(geometry.spacing_i, geometry.spacing_j, std::max(geometry.slice_spacing(), 1e-3));
+float edge_distance(const ContinuedMask& continued, int i, int j, int k) {
+  const double share = Around::share_of(continued, {i, j, k});
   // Less than a sliver, and more than all but one, tell too little.
   constexpr double sliver = 0.08;
   if (share < sliver || share > 1 - sliver) return not_told;
-  if (mask.fractions == Mask::Fractions::probability) return static_cast<float>(distance_to_half(around, size));
+  const Around around(continued, i, j, k);
+  const Geometry& geometry = continued.mask().geometry;
+  const Vec3 size(geometry.spacing_i, geometry.spacing_j, std::max(geometry.slice_spacing(), 1e-3));
+  const bool is_probability = continued.mask().fractions == Mask::Fractions::probability;
+  if (is_probability) return static_cast<float>(distance_to_half(around, size));
   const Vec3 slope = around.slope(size);
   if (glm::length(slope * size) < 0.1) return not_told;  // thinner than a voxel: no one edge
   return static_cast<float>(plane_distance(size, slope, share));

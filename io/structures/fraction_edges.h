@@ -1,13 +1,13 @@
 #pragma once
 
-#include "io/structures/mask.h"
+#include "io/structures/continued_mask.h"
 
 namespace palpate::io {
 
 /// The distance of a voxel's center from the edge, mm, positive inside, from the fractions of this voxel and its
-/// neighbors. NaN if they do not determine it (no fraction, or no edge nearby). The index is of the whole lattice;
-/// voxels beyond the lattice count as those at its edge.
-float edge_distance(const Mask& mask, int i, int j, int k);
+/// neighbors. NaN if they do not determine it (no fraction, or no edge nearby). The index is of the whole lattice,
+/// or beyond it.
+float edge_distance(const ContinuedMask& mask, int i, int j, int k);
 
 /// The same for one box of `size` mm that a plane with this normal (inward, of any length) cuts so that `share` of the
 /// box is inside. Source: the volumes below a plane of Scardovelli and Zaleski, "Analytical relations connecting linear

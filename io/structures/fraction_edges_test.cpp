@@ -55,7 +55,7 @@ TEST(EdgeOfOccupancy, IsThePlaneThatLeavesAsMuchOfTheVoxel) {
       }
     }
     const double share = around.share(0, 0, 0);
-    const float found = edge_distance(around.mask, 1, 1, 1);
+    const float found = edge_distance({around.mask, nullptr}, 1, 1, 1);
     if (share < 0.08 || share > 0.92 || glm::length(rise) < 0.1) {
       EXPECT_TRUE(std::isnan(found)) << n;
       ++untold;
@@ -93,7 +93,7 @@ TEST(EdgeOfProbability, IsWhereHalfIsReached) {
       const double slope = (most > 0 ? most : 0.5 * (there[1] - there[0])) / around.size[axis];
       steep += slope * slope;
     }
-    const float found = edge_distance(around.mask, 1, 1, 1);
+    const float found = edge_distance({around.mask, nullptr}, 1, 1, 1);
     if (here < 0.08 || here > 0.92 || !beside) {
       EXPECT_TRUE(std::isnan(found)) << n;
       ++untold;
@@ -133,7 +133,8 @@ TEST(EdgeOfFractions, IsTheSameAtTheEndOfTheScanAsIfItWentOn) {
       const Mask larger = continued(mask);
       for (int at = 0; at < 27; ++at) {
         const int i = at % 3, j = at / 3 % 3, k = at / 9;
-        const float found = edge_distance(mask, i, j, k), wanted = edge_distance(larger, i + 1, j + 1, k + 1);
+        const float found = edge_distance({mask, nullptr}, i, j, k),
+                    wanted = edge_distance({larger, nullptr}, i + 1, j + 1, k + 1);
         ASSERT_EQ(std::isnan(found), std::isnan(wanted)) << n << ' ' << at;
         if (std::isnan(found)) continue;
         ASSERT_FLOAT_EQ(found, wanted) << n << ' ' << at;

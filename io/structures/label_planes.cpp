@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "io/structures/continued_mask.h"
 #include "io/structures/fraction_edges.h"
+#include "io/structures/scan_slices.h"
 
 namespace palpate::io {
 namespace {
@@ -20,7 +22,7 @@ struct Layout {
   glm::ivec3 per_voxel{1};
   std::vector<int> slice_node;          // of every slice of the box and of those beside it, along the third axis
   std::vector<glm::ivec2> slice_first;  // node of pixel 0, 0 of the whole lattice
-  std::vector<int> slice;               // which slice of the whole lattice it is, or is like
+  int first_slice = 0;                  // of the whole lattice
   glm::ivec2 low{0}, high{0};           // pixels around the box that are known, both ends included
 };
 
@@ -79,11 +81,7 @@ struct Slices {
   double step = 1;              // mm: the least between two heights
 
   Vec3 slide_of(const Vec3& position) const { return position - geometry.slice_positions.front(); }
-  /// Beyond the lattice nothing is known: it is continued with the shape of its edge.
-  Vec3 position_of(int k) const {
-    const int held = std::clamp(k, 0, geometry.dimensions.z - 1);
-    return geometry.slice_positions[static_cast<std::size_t>(held)] + static_cast<double>(k - held) * geometry.step;
-  }
+  Vec3 position_of(int k) const { return slice_position(geometry, k); }
   double height_of(int k) const { return glm::dot(slide_of(position_of(k)), normal); }
   Vec3 voxel() const { return {geometry.spacing_i, geometry.spacing_j, step}; }
 };
@@ -139,9 +137,12 @@ Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_vox
   const glm::ivec3 high = mask.low + mask.size - 1 + around;
   Layout layout;
   layout.per_voxel = per_voxel;
+  layout.first_slice = low.z;
   layout.low = glm::ivec2(low);
   layout.high = glm::ivec2(high);
-  const double base = slices.height_of(low.z);
+  // The first slice of the lattice is a node, and so are all that lie whole steps from it.
+  const double below = slices.height_of(low.z) / lattice.spacing.z;
+  const double base = (has_whole_steps(slices.geometry) ? std::round(below) : below) * lattice.spacing.z;
   glm::dvec2 least_slide(std::numeric_limits<double>::infinity());
   glm::dvec2 most_slide(-std::numeric_limits<double>::infinity());
   std::vector<glm::dvec2> slides;
@@ -152,7 +153,6 @@ Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_vox
     slides.push_back(in_nodes);
     least_slide = glm::min(least_slide, in_nodes);
     most_slide = glm::max(most_slide, in_nodes);
-    layout.slice.push_back(std::clamp(k, 0, geometry.dimensions.z - 1));
     layout.slice_node.push_back(static_cast<int>(std::lround((slices.height_of(k) - base) / lattice.spacing.z)));
   }
   // The known region reaches as far as the band; some more room keeps its nodes on the coarser lattices.
@@ -173,14 +173,13 @@ Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_vox
 }
 
 /// The nodes of a plane that are voxels, and where the mask has fractions their known distances.
-std::vector<std::uint8_t> seed_plane(const Mask& mask, const Layout& layout, const glm::ivec2& nodes, std::size_t plane,
-                                     PlaneDistances& distances) {
+std::vector<std::uint8_t> seed_plane(const ContinuedMask& mask, const Layout& layout, const glm::ivec2& nodes,
+                                     std::size_t plane, PlaneDistances& distances) {
   const auto count = static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y);
   std::vector<std::uint8_t> seeds(count, unknown);
-  const bool has_fractions = mask.fractions != Mask::Fractions::none;
+  const bool has_fractions = mask.mask().fractions != Mask::Fractions::none;
   if (has_fractions) distances.known.assign(count, std::numeric_limits<float>::quiet_NaN());
-  const int k = layout.slice[plane];
-  const glm::ivec3 last = mask.geometry.dimensions - 1;
+  const int k = layout.first_slice + static_cast<int>(plane);
   for (int j = layout.low.y; j <= layout.high.y; ++j) {
     const int row = layout.slice_first[plane].y + j * layout.per_voxel.y;
     for (int i = layout.low.x; i <= layout.high.x; ++i) {
@@ -188,7 +187,7 @@ std::vector<std::uint8_t> seed_plane(const Mask& mask, const Layout& layout, con
       if (row >= 0 && row < nodes.y && column >= 0 && column < nodes.x) {
         const std::size_t node =
             static_cast<std::size_t>(row) * static_cast<std::size_t>(nodes.x) + static_cast<std::size_t>(column);
-        seeds[node] = mask.inside(std::clamp(i, 0, last.x), std::clamp(j, 0, last.y), k) ? in : out;
+        seeds[node] = mask.occupancy({i, j, k}) >= Mask::half ? in : out;
         if (has_fractions) distances.known[node] = edge_distance(mask, i, j, k);
       }
     }
@@ -196,7 +195,7 @@ std::vector<std::uint8_t> seed_plane(const Mask& mask, const Layout& layout, con
   return seeds;
 }
 
-void compute_plane(const Mask& mask, const Layout& layout, const NodeLattice& lattice, double band_mm,
+void compute_plane(const ContinuedMask& mask, const Layout& layout, const NodeLattice& lattice, double band_mm,
                    std::size_t plane, PlaneDistances& distances) {
   const glm::ivec2 nodes(lattice.bricks * NodeBricks::edge);
   const std::vector<std::uint8_t> seeds = seed_plane(mask, layout, nodes, plane, distances);
@@ -216,7 +215,7 @@ void compute_plane(const Mask& mask, const Layout& layout, const NodeLattice& la
 
 }  // namespace
 
-OutlinePlanes planes_of(const Mask& mask, double reach_mm) {
+OutlinePlanes planes_of(const Mask& mask, double reach_mm, const Geometry* scan) {
   const Slices slices = slices_of(mask.geometry);
   const glm::ivec3 per_voxel = nodes_per_voxel(slices);
   OutlinePlanes planes;
@@ -228,7 +227,8 @@ OutlinePlanes planes_of(const Mask& mask, double reach_mm) {
   planes.band_mm = band_for(reach_mm, lattice, planes.play_mm);
   const Layout layout = lay_out(mask, slices, per_voxel, planes.band_mm, lattice);
   planes.node = layout.slice_node;
-  planes.compute = [&mask, layout, lattice, band = planes.band_mm](std::size_t plane, PlaneDistances& distances) {
+  planes.compute = [mask = ContinuedMask(mask, scan), layout, lattice, band = planes.band_mm](
+                       std::size_t plane, PlaneDistances& distances) {
     compute_plane(mask, layout, lattice, band, plane, distances);
   };
   return planes;

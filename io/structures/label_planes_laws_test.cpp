@@ -103,9 +103,8 @@ TEST(LabelPlanesLaws, EveryNodeHasItsDistanceToTheNearestVoxelOnEitherSide) {
         for (int i = odd.mask.low.x - around.x; i < odd.mask.low.x + 4 + around.x; ++i) {
           const Vec3 node = lattice.node_of(odd.center({i, j, k}));
           const glm::ivec2 at(std::lround(node.x), std::lround(node.y));
-          const int slice = std::clamp(k, 0, odd.mask.geometry.dimensions.z - 1);
           ASSERT_TRUE(at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y) << seed;
-          known.push_back({at, odd.inside({i, j, k}), edge_distance(odd.mask, i, j, slice)});
+          known.push_back({at, odd.inside({i, j, k}), edge_distance({odd.mask, nullptr}, i, j, k)});
         }
       }
       PlaneDistances distances;

@@ -17,7 +17,8 @@ class MaskSource : public StructureSource {
  private:
   /// The mask of a structure on its file's grid. Empty if no voxel is inside.
   virtual Mask mask_of(int number) const = 0;
-  Mask moved_mask(int number, const RigidMotion& motion) const;
+  /// In the scan's frame of reference, and on its slices if it was outlined on them.
+  Mask moved_mask(int number, const RigidMotion& motion, const Geometry* scan, double around_mm) const;
 };
 
 }  // namespace palpate::io

@@ -62,6 +62,7 @@ void expect_close(const Vec3& a, const Vec3& b, unsigned seed) {
   EXPECT_LT(glm::distance(a, b), 1e-9) << seed;
 }
 
+// Each voxel reaches half of the way to the slices beside its own.
 TEST(MeasuresLaws, OfAMaskAreThoseOfItsVoxelsThatAreHalfInside) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     OddLattice lattice(seed);
@@ -72,8 +73,16 @@ TEST(MeasuresLaws, OfAMaskAreThoseOfItsVoxelsThatAreHalfInside) {
     mask.size = {5, 4, 3};
     constexpr std::array<std::uint8_t, 5> shares{0, Mask::half - 1, Mask::half, Mask::half + 1, Mask::full};
     std::uint64_t voxels = 0;
-    Vec3 sum(0), low(1e9), high(-1e9);
-    for (int k = 1; k < 4; ++k) {
+    Vec3 moment(0), low(1e9), high(-1e9);
+    double tall = 0;
+    const Vec3 normal = glm::cross(g.direction_i, g.direction_j);
+    const auto apart = [&](int slice) {  // from a slice to the next; at the ends as on the other side
+      const auto at = static_cast<std::size_t>(std::clamp(slice, 0, 5));
+      return glm::dot(g.slice_positions[at + 1] - g.slice_positions[at], normal);
+    };
+    mask.low.z = static_cast<int>(seed % 5);
+    for (int k = mask.low.z; k < mask.low.z + 3; ++k) {
+      const double below = 0.5 * apart(k - 1), above = 0.5 * apart(k);
       for (int j = 2; j < 6; ++j) {
         for (int i = 3; i < 8; ++i) {
           const std::uint8_t share = shares[static_cast<std::size_t>(lattice.any(5))];
@@ -81,20 +90,18 @@ TEST(MeasuresLaws, OfAMaskAreThoseOfItsVoxelsThatAreHalfInside) {
           if (share < Mask::half) continue;
           const Vec3 at = lattice.center(i, j, k);
           ++voxels;
-          sum += at;
+          tall += below + above;
+          moment += (below + above) * (at + 0.5 * (above - below) * normal);
           low = glm::min(low, at);
           high = glm::max(high, at);
         }
       }
     }
-    // The mean distance of the lattice's slices along their normal.
-    const Vec3 normal = glm::cross(g.direction_i, g.direction_j);
-    const double apart = glm::dot(g.slice_positions.back() - g.slice_positions.front(), normal) / 6;
     const StructureMeasures measures = measures_of(mask);
     EXPECT_EQ(measures.voxels, voxels);
     EXPECT_FALSE(measures.contours);
-    EXPECT_NEAR(measures.volume_mm3, static_cast<double>(voxels) * g.spacing_i * g.spacing_j * apart, 1e-9);
-    expect_close(measures.centroid_mm, sum / static_cast<double>(voxels), seed);
+    EXPECT_NEAR(measures.volume_mm3, g.spacing_i * g.spacing_j * tall, 1e-9);
+    expect_close(measures.centroid_mm, moment / tall, seed);
     expect_close(measures.box_low_mm, low, seed);
     expect_close(measures.box_high_mm, high, seed);
   }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <tuple>
 #include <vector>
 
 #include "io/errors.h"
@@ -273,14 +272,6 @@ TEST(ContourStacks, LieAlongThePatientsAxesWhereTheyNearlyDo) {
   }
 }
 
-Mask mask_on(const Geometry& geometry) {
-  Mask mask;
-  mask.geometry = geometry;
-  mask.low = {2, 3, 0};
-  mask.size = {4, 3, geometry.dimensions.z};
-  return mask;
-}
-
 Geometry lattice_with(int slices, const Vec3& first, const Vec3& step) {
   const ObliquePlanes planes;
   Geometry g;
@@ -294,69 +285,19 @@ Geometry lattice_with(int slices, const Vec3& first, const Vec3& step) {
   return g;
 }
 
-// As many as the field reaches over and 20 mm more, up to 64, at either end.
-TEST(EmptySlices, AreAddedAsFarAsTheFieldReads) {
+// Up to half a voxel beyond the scan's outermost ones, along each of its axes.
+TEST(PlacesThatAScanHasSeen, EndHalfAVoxelBeyondIt) {
   const ObliquePlanes planes;
-  for (const auto& [apart, reach, count] : {std::tuple{2.0, 3.0, 12}, {2.0, 9.0, 15}, {0.1, 3.0, 64}, {50.0, 3.0, 1}}) {
-    const Vec3 step = apart * planes.n + 0.3 * planes.v;
-    const Geometry before = lattice_with(5, planes.first, step);
-    Mask mask = mask_on(before);
-    DistanceOptions options;
-    options.reach_mm = reach;
-    add_empty_slices(options, mask);
-    ASSERT_EQ(mask.geometry.dimensions.z, 5 + 2 * count) << apart;
-    EXPECT_EQ(mask.low, glm::ivec3(2, 3, count));
-    for (int k = 0; k < mask.geometry.dimensions.z; ++k) {
-      EXPECT_LT(glm::distance(mask.geometry.slice_positions[static_cast<std::size_t>(k)],
-                              planes.first + static_cast<double>(k - count) * step),
-                1e-9);
-    }
-  }
-}
-
-// A slice is seen up to half a slice beyond the scan's last one.
-TEST(EmptySlices, AreAddedWhereTheScanHasSeenThemAlone) {
-  const ObliquePlanes planes;
-  const Vec3 step = 2.0 * planes.n;
-  const Geometry lattice = lattice_with(5, planes.first, step);
-  for (const int below : {0, 1, 3}) {
-    for (const int above : {0, 2, 4}) {
-      for (const double off : {-0.4, 0.0, 0.4}) {
-        const Geometry scan = lattice_with(5 + below + above, planes.first + (off - below) * step, step);
-        DistanceOptions options;
-        options.scan = &scan;
-        Mask mask = mask_on(lattice);
-        add_empty_slices(options, mask);
-        EXPECT_EQ(mask.low.z, below) << off;
-        EXPECT_EQ(mask.geometry.dimensions.z, 5 + below + above) << off;
+  const Geometry scan = lattice_with(5, planes.first, 2.0 * planes.n + 0.3 * planes.v);
+  const DistanceOptions options{.scan = &scan};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool behind : {false, true}) {
+      for (const auto& [beyond, seen] : {std::pair{-1.0, true}, {0.45, true}, {0.55, false}, {4.0, false}}) {
+        Vec3 index(3, 2, 1);
+        index[axis] = behind ? scan.dimensions[axis] - 1 + beyond : -beyond;
+        EXPECT_EQ(is_seen(options, scan.to_patient(index)), seen) << axis << behind << ' ' << beyond;
+        EXPECT_TRUE(is_seen({}, scan.to_patient(index)));
       }
-      const Geometry lower = lattice_with(5 + below + above, planes.first + (-0.6 - below) * step, step);
-      EXPECT_TRUE(is_seen({.scan = &lower}, planes.first - (below + 1.0) * step));
-      EXPECT_FALSE(is_seen({.scan = &lower}, planes.first + (4.0 + above) * step));
-    }
-  }
-}
-
-// Of a scan across it, it is the middle of the mask's box that is seen or not.
-TEST(EmptySlices, AreSeenAtTheMiddleOfTheBox) {
-  const ObliquePlanes planes;
-  const Geometry lattice = lattice_with(5, planes.first, 2.0 * planes.n);
-  const Mask box = mask_on(lattice);
-  const double middle_i = 0.8 * (2 + 0.5 * 4), middle_j = 1.1 * (3 + 0.5 * 3);
-  for (const bool along_i : {false, true}) {
-    for (const double beyond : {-0.4, 0.4}) {  // mm, of the middle of the box
-      Geometry scan;                           // slices along the mask's rows, or its columns
-      scan.direction_i = along_i ? planes.v : planes.n;
-      scan.direction_j = along_i ? planes.n : planes.u;
-      scan.step = along_i ? planes.u : planes.v;
-      scan.dimensions = {200, 200, 30};
-      const double end = (along_i ? middle_i : middle_j) - beyond - 0.5;  // the last slice's
-      for (int k = 0; k < 30; ++k) scan.slice_positions.push_back(planes.first + (end - 29 + k) * scan.step);
-      DistanceOptions options;
-      options.scan = &scan;
-      Mask mask = box;
-      add_empty_slices(options, mask);
-      EXPECT_EQ(mask.geometry.dimensions.z > 5, beyond < 0) << along_i << ' ' << beyond;
     }
   }
 }

@@ -29,38 +29,57 @@ PixelFormat as_bytes(const PixelFormat& format) {
   return bytes;
 }
 
-std::vector<std::byte> read_bytes(const SegmentationPixels& pixels, std::uint64_t offset, std::uint64_t count) {
+}  // namespace
+
+void FrameReader::inflate(std::uint64_t at, std::span<std::byte> bytes) {
+  if (!bytes.empty() && inflated_ && at + 1 == inflated_to_) {
+    bytes.front() = last_;
+    bytes = bytes.subspan(1);
+    ++at;
+  }
+  if (bytes.empty()) return;
+  if (!inflated_ || at < inflated_to_) {
+    inflated_ = internal::inflated(pixels_.path, pixels_.start);
+    inflated_to_ = 0;
+  }
+  if (!inflated_->skip(at - inflated_to_) || inflated_->read(bytes) != bytes.size()) {
+    inflated_.reset();
+    throw DicomError(say("truncated-its-deflated-pixels-end-early"));
+  }
+  inflated_bytes_ += at - inflated_to_ + bytes.size();
+  inflated_to_ = at + bytes.size();
+  last_ = bytes.back();
+}
+
+std::vector<std::byte> FrameReader::read_bytes(std::uint64_t offset, std::uint64_t count) {
   std::vector<std::byte> bytes(count);
-  if (pixels.coding == PixelCoding::deflated) {
-    const auto source = internal::inflated(pixels.path, pixels.start);
-    if (!source->skip(pixels.at + offset) || source->read(bytes) != bytes.size()) {
-      throw DicomError(say("truncated-its-deflated-pixels-end-early"));
-    }
+  if (pixels_.coding == PixelCoding::deflated) {
+    inflate(pixels_.at + offset, bytes);
   } else {
-    internal::InputFile(pixels.path).read(pixels.at + offset, bytes);
+    file_.read(pixels_.at + offset, bytes);
   }
   return bytes;
 }
 
 /// PS3.5 8.1.1: bits follow each other from frame to frame, the least significant of a byte first.
-void read_bits(const SegmentationPixels& pixels, std::uint32_t frame, std::span<std::uint16_t> values) {
-  const std::uint64_t first = frame * pixels_of(pixels.format);
+void FrameReader::read_bits(std::uint32_t frame, std::span<std::uint16_t> values) {
+  const std::uint64_t first = frame * pixels_of(pixels_.format);
   const std::uint64_t last = first + values.size() - 1;
-  const std::vector<std::byte> bytes = read_bytes(pixels, first / 8, last / 8 - first / 8 + 1);
+  const std::vector<std::byte> bytes = read_bytes(first / 8, last / 8 - first / 8 + 1);
   for (std::size_t n = 0; n < values.size(); ++n) {
     const std::uint64_t bit = first % 8 + n;
     values[n] = std::to_integer<unsigned>(bytes[bit / 8]) >> (bit % 8) & 1U;
   }
 }
 
-void read_words(const SegmentationPixels& pixels, std::uint32_t frame, std::span<std::uint16_t> values) {
-  const bool wide = pixels.format.bits_allocated == 16;
+void FrameReader::read_words(std::uint32_t frame, std::span<std::uint16_t> values) {
+  const bool wide = pixels_.format.bits_allocated == 16;
   const std::uint64_t size = values.size() * (wide ? 2 : 1);
-  const std::vector<std::byte> bytes = read_bytes(pixels, frame * size, size);
+  const std::vector<std::byte> bytes = read_bytes(frame * size, size);
   for (std::size_t n = 0; n < values.size(); ++n) {
     if (wide) {
-      const auto low = std::to_integer<unsigned>(bytes[2 * n + (pixels.big_endian ? 1 : 0)]);
-      const auto high = std::to_integer<unsigned>(bytes[2 * n + (pixels.big_endian ? 0 : 1)]);
+      const auto low = std::to_integer<unsigned>(bytes[2 * n + (pixels_.big_endian ? 1 : 0)]);
+      const auto high = std::to_integer<unsigned>(bytes[2 * n + (pixels_.big_endian ? 0 : 1)]);
       values[n] = static_cast<std::uint16_t>(high << 8U | low);
     } else {
       values[n] = std::to_integer<std::uint16_t>(bytes[n]);
@@ -68,27 +87,24 @@ void read_words(const SegmentationPixels& pixels, std::uint32_t frame, std::span
   }
 }
 
-void read_encapsulated(const SegmentationPixels& pixels, std::uint32_t frame, std::span<std::uint16_t> values) {
-  const internal::InputFile file(pixels.path);
-  const auto bytes = internal::read_fragments(file, pixels.fragments.at(frame));
-  const PixelFormat& format = pixels.format;
+void FrameReader::read_encapsulated(std::uint32_t frame, std::span<std::uint16_t> values) {
+  const auto bytes = internal::read_fragments(file_, pixels_.fragments.at(frame));
+  const PixelFormat& format = pixels_.format;
   // What packs bytes packs the bits eight to a byte (PS3.5 8.2.2 and 8.2.16); coders of images know bytes alone.
-  if (format.bits_allocated == 1 && internal::is_packed(pixels.start.transfer_syntax)) {
+  if (format.bits_allocated == 1 && internal::is_packed(pixels_.start.transfer_syntax)) {
     PixelFormat packed = as_bytes(format);
     packed.columns = static_cast<int>((pixels_of(format) + 7) / 8);
     packed.rows = 1;
     std::vector<std::uint16_t> eights(static_cast<std::size_t>(packed.columns));
-    internal::decode_frame(pixels.start.transfer_syntax, packed, bytes, eights);
+    internal::decode_frame(pixels_.start.transfer_syntax, packed, bytes, eights);
     for (std::size_t n = 0; n < values.size(); ++n) {
       values[n] = static_cast<std::uint16_t>(eights[n / 8] >> (n % 8) & 1U);
     }
     return;
   }
-  internal::decode_frame(pixels.start.transfer_syntax, format.bits_allocated == 1 ? as_bytes(format) : format, bytes,
+  internal::decode_frame(pixels_.start.transfer_syntax, format.bits_allocated == 1 ? as_bytes(format) : format, bytes,
                          values);
 }
-
-}  // namespace
 
 SegmentationPixels find_pixels(const std::filesystem::path& path, const internal::DatasetStart& start,
                                const internal::PixelElement& element, const PixelFormat& format, std::size_t frames) {
@@ -124,13 +140,13 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
   return pixels;
 }
 
-void read_frame(const SegmentationPixels& pixels, std::uint32_t frame, std::span<std::uint16_t> values) {
-  if (pixels.coding == PixelCoding::encapsulated) {
-    read_encapsulated(pixels, frame, values);
-  } else if (pixels.format.bits_allocated == 1) {
-    read_bits(pixels, frame, values);
+void FrameReader::read(std::uint32_t frame, std::span<std::uint16_t> values) {
+  if (pixels_.coding == PixelCoding::encapsulated) {
+    read_encapsulated(frame, values);
+  } else if (pixels_.format.bits_allocated == 1) {
+    read_bits(frame, values);
   } else {
-    read_words(pixels, frame, values);
+    read_words(frame, values);
   }
 }
 

@@ -2,8 +2,10 @@
 
 /// The frames of a DICOM segmentation, each decoded when it is used.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,7 +33,30 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
                                const internal::PixelElement& pixels, const internal::PixelFormat& format,
                                std::size_t frames);
 
-/// A frame's stored values, columns * rows of them. Throws DicomError.
-void read_frame(const SegmentationPixels& pixels, std::uint32_t frame, std::span<std::uint16_t> values);
+/// Reads frames. A deflated file is inflated once if they are read in order. For one thread.
+class FrameReader {
+ public:
+  /// The pixels must outlive it.
+  explicit FrameReader(const SegmentationPixels& pixels) : pixels_(pixels), file_(pixels.path) {}
+
+  /// A frame's stored values, columns * rows of them. Throws DicomError.
+  void read(std::uint32_t frame, std::span<std::uint16_t> values);
+  /// How many bytes had to be inflated for all that was read.
+  std::uint64_t inflated_bytes() const noexcept { return inflated_bytes_; }
+
+ private:
+  std::vector<std::byte> read_bytes(std::uint64_t offset, std::uint64_t count);
+  void inflate(std::uint64_t at, std::span<std::byte> bytes);
+  void read_bits(std::uint32_t frame, std::span<std::uint16_t> values);
+  void read_words(std::uint32_t frame, std::span<std::uint16_t> values);
+  void read_encapsulated(std::uint32_t frame, std::span<std::uint16_t> values);
+
+  const SegmentationPixels& pixels_;
+  internal::InputFile file_;
+  std::unique_ptr<internal::ByteSource> inflated_;
+  std::uint64_t inflated_to_ = 0;
+  std::byte last_{0};  ///< the last one inflated: frames of bits may share it
+  std::uint64_t inflated_bytes_ = 0;
+};
 
 }  // namespace palpate::io

@@ -8,7 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <map>
+#include <numeric>
+#include <optional>
 
 #include "io/dicom/character_set.h"
 #include "io/dicom/dicom_value.h"
@@ -62,6 +63,7 @@ bool is_within_reach(const Placement& placement) {
 
 struct PlacedFrame {
   int segment = 0;
+  std::optional<int> in_stack;  ///< InStackPositionNumber
   Placement placement;
   double spacing = 0;    ///< SpacingBetweenSlices, mm; 0 where it is not said
   double thickness = 0;  ///< SliceThickness, mm; 0 where it is not said
@@ -81,6 +83,8 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
   PlacedFrame frame{.placement = *placement};
   frame.spacing = distance_in(measures, DCM_SpacingBetweenSlices);
   frame.thickness = distance_in(measures, DCM_SliceThickness);
+  const auto in_stack = numbers_in(group_of(own, shared, DCM_FrameContentSequence), DCM_InStackPositionNumber);
+  if (!in_stack.empty()) frame.in_stack = static_cast<int>(std::clamp(in_stack.front(), -1.0, 1e6));
   if (type != SegmentationType::label_map) {
     const auto number =
         numbers_in(group_of(own, shared, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
@@ -125,31 +129,73 @@ bool share_lattice(const Placement& a, const Placement& b) {
          std::abs(a.spacing_j - b.spacing_j) < tolerance * a.spacing_j;
 }
 
-/// Positions of slices with those between that no frame lies on, for empty frames are left out: where all distances are
-/// multiples of one.
-std::vector<Vec3> filled(const std::vector<Vec3>& positions, const Vec3& normal, double spacing) {
+/// The slices that frames lie on, ascending.
+struct FrameSlices {
+  std::vector<Vec3> position;
+  std::vector<double> height;                    // along the normal, mm
+  std::vector<std::vector<std::size_t>> frames;  // of each
+};
+
+/// Frames nearly at one height are on one slice. Throws DicomError if they lie beside each other there.
+FrameSlices slices_of(const std::vector<PlacedFrame>& frames, const Vec3& normal) {
+  const Placement& reference = frames.front().placement;
+  const double same = internal::same_place_mm(reference);
+  FrameSlices slices;
+  std::vector<std::size_t> order(frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto height_of = [&](std::size_t n) { return glm::dot(frames[n].placement.position, normal); };
+  std::ranges::stable_sort(order, {}, height_of);
+  for (const std::size_t n : order) {
+    const Vec3& position = frames[n].placement.position;
+    const double height = height_of(n);
+    if (slices.height.empty() || height > slices.height.back() + same) {
+      slices.position.push_back(position);
+      slices.height.push_back(height);
+      slices.frames.emplace_back();
+    }
+    const Vec3 aside = position - slices.position.back() - (height - slices.height.back()) * normal;
+    if (glm::length(aside) > same) throw DicomError(say("frames-lie-beside-each-other"));
+    slices.frames.back().push_back(n);
+  }
+  return slices;
+}
+
+/// How many slices a frame lies after one of its segment on the slice before, as both are numbered; 0 if they are not.
+int numbered_steps(const std::vector<PlacedFrame>& frames, const std::vector<std::size_t>& before,
+                   const std::vector<std::size_t>& after) {
+  for (const std::size_t a : before) {
+    for (const std::size_t b : after) {
+      const PlacedFrame &one = frames[a], &other = frames[b];
+      if (one.segment == other.segment && one.in_stack && other.in_stack)
+        return std::abs(*other.in_stack - *one.in_stack);
+    }
+  }
+  return 0;
+}
+
+/// How many steps of the lattice lie from each slice with a frame to the next: empty slices are left out. Without a
+/// spacing, frames that are numbered say so; else all distances are multiples of the least one. All 1 if none of it
+/// fits.
+std::vector<int> steps_between(const FrameSlices& slices, const std::vector<PlacedFrame>& frames) {
+  const double spacing = frames.front().spacing;
+  const std::size_t count = slices.height.size() - 1;
+  std::vector<int> steps(count, 1);
   double least = spacing;
-  for (std::size_t k = 1; k < positions.size(); ++k) {
-    const double step = glm::dot(positions[k] - positions[k - 1], normal);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double step = slices.height[k + 1] - slices.height[k];
     least = least > 0 ? std::min(least, step) : step;
   }
-  if (!(least > 0)) {
-    return positions;
-  }
-  std::vector<Vec3> all{positions.front()};
   constexpr double tolerance = 0.05;
   constexpr double most = 4096;  // slices between two: more is no lattice
-  for (std::size_t k = 1; k < positions.size(); ++k) {
-    const double steps = glm::dot(positions[k] - positions[k - 1], normal) / least;
-    const double whole = std::round(steps);
-    if (std::abs(steps - whole) > tolerance * whole || whole > most) {
-      return positions;
-    }
-    for (int n = 1; n <= whole; ++n) {
-      all.push_back(positions[k - 1] + (positions[k] - positions[k - 1]) * (n / whole));
-    }
+  for (std::size_t k = 0; k < count; ++k) {
+    const int numbered = spacing > 0 ? 0 : numbered_steps(frames, slices.frames[k], slices.frames[k + 1]);
+    const double in_steps = (slices.height[k + 1] - slices.height[k]) / least;
+    const double whole = numbered > 0 ? numbered : std::round(in_steps);
+    const bool is_whole = numbered > 0 || std::abs(in_steps - whole) <= tolerance * whole;
+    if (!is_whole || whole > most) return std::vector<int>(count, 1);
+    steps[k] = static_cast<int>(whole);
   }
-  return all;
+  return steps;
 }
 
 class SegmentationSource final : public MaskSource {
@@ -159,39 +205,26 @@ class SegmentationSource final : public MaskSource {
       : pixels_(std::move(pixels)), type_(type), most_(most) {
     const Placement& reference = frames.front().placement;
     const Vec3 normal = glm::normalize(glm::cross(reference.direction_i, reference.direction_j));
-    std::vector<double> heights;
-    heights.reserve(frames.size());
     for (const PlacedFrame& frame : frames) {
       if (!share_lattice(frame.placement, reference)) {
         throw DicomError(say("frames-have-several-orientations-or-pixel"));
       }
-      heights.push_back(glm::dot(frame.placement.position, normal));
     }
-    const double same = 0.02 * std::min(reference.spacing_i, reference.spacing_j);
-    std::map<double, Vec3> slices;
-    for (std::size_t n = 0; n < frames.size(); ++n) {
-      const auto near = slices.lower_bound(heights[n] - same);
-      if (near == slices.end() || near->first > heights[n] + same) {
-        slices.emplace(heights[n], frames[n].placement.position);
-      }
-    }
+    const FrameSlices slices = slices_of(frames, normal);
+    const std::vector<int> steps = steps_between(slices, frames);
     std::vector<Vec3> positions;
-    positions.reserve(slices.size());
-    for (const auto& [height, position] : slices) positions.push_back(position);
-    const double spacing = frames.front().spacing;
-    positions = filled(positions, normal, spacing);
-    std::vector<double> levels;
-    levels.reserve(positions.size());
-    for (const Vec3& position : positions) levels.push_back(glm::dot(position, normal));
-    for (std::size_t n = 0; n < frames.size(); ++n) {
-      const auto above = std::lower_bound(levels.begin(), levels.end(), heights[n]);
-      std::ptrdiff_t k = above - levels.begin();
-      if (above == levels.end() ||
-          (k > 0 && heights[n] - levels[static_cast<std::size_t>(k - 1)] < *above - heights[n])) {
-        --k;
+    frames_.resize(frames.size());
+    for (std::size_t k = 0; k < slices.position.size(); ++k) {
+      for (const std::size_t n : slices.frames[k]) frames_[n] = {frames[n].segment, static_cast<int>(positions.size())};
+      positions.push_back(slices.position[k]);
+      if (k == steps.size()) break;
+      const Vec3 step = (slices.position[k + 1] - slices.position[k]) / static_cast<double>(steps[k]);
+      for (int n = 1; n < steps[k]; ++n) {
+        assumed_slices_.push_back(static_cast<int>(positions.size()));
+        positions.push_back(slices.position[k] + static_cast<double>(n) * step);
       }
-      frames_.push_back({frames[n].segment, static_cast<int>(k)});
     }
+    const double spacing = frames.front().spacing;
     const double thickness = spacing > 0 ? spacing : frames.front().thickness;
     geometry_ = internal::stack_geometry(pixels_.format.columns, pixels_.format.rows, reference, std::move(positions),
                                          {}, thickness);
@@ -218,8 +251,8 @@ class SegmentationSource final : public MaskSource {
   }
 
   /// The part of a frame that contains some of the segment; of size zero if there is none.
-  Cut cut_frame(std::size_t n, int number, std::vector<std::uint16_t>& values) const {
-    read_frame(pixels_, static_cast<std::uint32_t>(n), values);
+  Cut cut_frame(FrameReader& reader, std::size_t n, int number, std::vector<std::uint16_t>& values) const {
+    reader.read(static_cast<std::uint32_t>(n), values);
     Cut cut{.slice = frames_[n].slice};
     const int columns = geometry_.dimensions.x;
     glm::ivec2 low(std::numeric_limits<int>::max());
@@ -252,6 +285,7 @@ class SegmentationSource final : public MaskSource {
   Mask mask_of(int number) const override {
     std::vector<std::uint16_t> values(static_cast<std::size_t>(geometry_.dimensions.x) *
                                       static_cast<std::size_t>(geometry_.dimensions.y));
+    FrameReader reader(pixels_);
     std::vector<Cut> cuts;
     glm::ivec3 low(std::numeric_limits<int>::max());
     glm::ivec3 high(-1);
@@ -259,7 +293,7 @@ class SegmentationSource final : public MaskSource {
       if (type_ != SegmentationType::label_map && frames_[n].segment != number) {
         continue;
       }
-      Cut cut = cut_frame(n, number, values);
+      Cut cut = cut_frame(reader, n, number, values);
       if (cut.size.x > 0) {
         low = glm::min(low, glm::ivec3(cut.low, cut.slice));
         high = glm::max(high, glm::ivec3(cut.low + cut.size - 1, cut.slice));
@@ -269,6 +303,7 @@ class SegmentationSource final : public MaskSource {
     Mask mask;
     mask.geometry = geometry_;
     mask.fractions = fractions_of(type_);
+    mask.assumed_slices = assumed_slices_;
     if (cuts.empty()) {
       return mask;
     }
@@ -294,6 +329,7 @@ class SegmentationSource final : public MaskSource {
   Geometry geometry_;
   bool has_no_thickness_ = false;
   std::vector<SegmentFrame> frames_;
+  std::vector<int> assumed_slices_;  ///< those of the lattice that no frame lies on
 };
 
 /// "SCT 10200004 Liver".

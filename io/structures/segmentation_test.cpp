@@ -112,7 +112,15 @@ TEST(Segmentations, OfFractionsAreFeltWhereTheirFractionsSay) {
     segmentation.edit = [&](DcmDataset& dataset) { put(dataset, DCM_SegmentationFractionalType, type); };
     write(segmentation, folder / "seg.dcm");
     const Structure structure = structures_in(folder).structures.at(0);
-    const auto field = load_distance(structure);
+    Geometry scan;  // ends with the structure, which runs on through it
+    scan.dimensions = {columns, rows, 24};
+    scan.spacing_i = 0.75;
+    scan.spacing_j = 0.5;
+    scan.step = {0, 0, 2};
+    for (int n = 0; n < 24; ++n) scan.slice_positions.emplace_back(0, 0, 2 * n);
+    DistanceOptions options;
+    options.scan = &scan;
+    const auto field = load_distance(structure, options);
     const StructureMeasures measures = measure(structure);  // of columns 6 to 12, all rows
     const double spacing = (measures.box_high_mm.x - measures.box_low_mm.x) / 6;
     const double y = 0.5 * (measures.box_low_mm.y + measures.box_high_mm.y);
@@ -267,7 +275,7 @@ TEST(Segmentations, SlicesThatHaveNoFrameAreWhereTheirSpacingSays) {
     return measures.volume_mm3 / (static_cast<double>(*measures.voxels) * 0.5 * 0.75);
   };
   EXPECT_NEAR(slice_mm({0, 2, 8}, ""), 2, 1e-9);
-  EXPECT_NEAR(slice_mm({0, 2, 6.18}, ""), 6.18 / 3, 1e-9);
+  EXPECT_NEAR(slice_mm({0, 2, 6.18}, ""), (2 + 2.045 + 2.09) / 3, 1e-9) << "half of the way to the slices beside";
   EXPECT_NEAR(slice_mm({0, 2, 6.22}, ""), 6.22 / 2, 1e-9);
   EXPECT_NEAR(slice_mm({0, 6}, ""), 6, 1e-9);
   EXPECT_NEAR(slice_mm({0, 6}, "2"), 2, 1e-9);
@@ -342,6 +350,53 @@ TEST(Segmentations, AreRefusedInWords) {
             "its MaximumFractionalValue is not above 0: export it again");
   EXPECT_THAT(edited([](DcmDataset& d) { d.putAndInsertUint8Array(DCM_PixelData, nullptr, 0); }),
               HasSubstr("bytes of pixels"));
+}
+
+// At one height all frames begin at one place. From height to height they may not: slices may be sheared.
+TEST(Segmentations, FramesBesideEachOtherAreRefused) {
+  for (const auto& [place, refused] : {std::pair{"0.4\\0\\2", true},
+                                       {"0\\-3\\2", true},
+                                       {"0.005\\0.005\\2", false},
+                                       {"0\\0\\2", false},
+                                       {"3\\-2\\4", false}}) {
+    TestSegmentation segmentation{.names = {"Liver", "Tumor"}, .frames = {{1, 0, box}, {1, 2, box}, {2, 2, box}}};
+    segmentation.edit = [text = place](DcmDataset& dataset) {
+      DcmItem* third = nullptr;
+      succeed(dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, third, 2));
+      succeed(group(*third, DCM_PlanePositionSequence).putAndInsertString(DCM_ImagePositionPatient, text));
+    };
+    EXPECT_EQ(refusal_of(segmentation), refused ? "frames of it at one height begin at different places: export each "
+                                                  "segment as a segmentation of its own"
+                                                : "not refused")
+        << place;
+  }
+}
+
+// Frames that are numbered one after the other have no slice between them; those that are not have as many as there are
+// numbers. What the file says of their spacing comes first.
+TEST(Segmentations, SlicesBetweenNumberedFramesAreThoseOfTheirNumbers) {
+  const auto volumes = [](const std::vector<std::pair<double, int>>& slices, const char* spacing) {
+    TestSegmentation segmentation;
+    for (const auto& [height, number] : slices) segmentation.frames.push_back({1, height, box});
+    segmentation.edit = [&](DcmDataset& dataset) {
+      for (std::size_t n = 0; n < slices.size(); ++n) {
+        DcmItem* frame = nullptr;
+        succeed(dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, frame, static_cast<long>(n)));
+        DcmItem& content = group(*frame, DCM_FrameContentSequence);
+        succeed(content.putAndInsertUint32(DCM_InStackPositionNumber, static_cast<Uint32>(slices[n].second)));
+      }
+      if (*spacing == 0) return;
+      DcmItem& shared = group(dataset, DCM_SharedFunctionalGroupsSequence);
+      succeed(group(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_SpacingBetweenSlices, spacing));
+    };
+    const TestFolder folder;
+    write(segmentation, folder / "seg.dcm");
+    return measure(structures_in(folder).structures.at(0)).volume_mm3 / (20 * 0.5 * 0.75);
+  };
+  EXPECT_NEAR(volumes({{0, 1}, {1, 2}, {2, 3}, {4, 4}, {6, 5}}, ""), 1 + 1 + 1.5 + 2 + 2, 1e-9);
+  EXPECT_NEAR(volumes({{0, 5}, {1, 4}, {3, 3}}, ""), 1 + 1.5 + 2, 1e-9) << "against the heights";
+  EXPECT_NEAR(volumes({{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}}, ""), 5, 1e-9);
+  EXPECT_NEAR(volumes({{0, 1}, {1, 2}, {3, 3}}, "1"), 3, 1e-9);
 }
 
 }  // namespace

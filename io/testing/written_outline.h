@@ -6,12 +6,15 @@
 #include <dcmtk/dcmdata/dcitem.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "io/structures/label_image.h"
 #include "io/structures/structure.h"
 
 namespace palpate::io::testing {
@@ -32,6 +35,37 @@ inline std::string tag_text(DcmItem& item, const DcmTagKey& key) {
   return value.c_str();
 }
 
+/// The volume and the centroid of an image's voxels, each of which reaches half of the way to the slices beside its
+/// own.
+struct VoxelSums {
+  std::size_t inside = 0;
+  double volume_mm3 = 0;
+  Vec3 centroid_mm{0};
+};
+
+inline VoxelSums sums_of(const LabelImage& image) {
+  const Geometry& g = image.geometry;
+  const Vec3 normal = glm::normalize(glm::cross(g.direction_i, g.direction_j));
+  const auto apart = [&](int slice) {
+    if (g.dimensions.z < 2) return g.slice_spacing();
+    const auto at = static_cast<std::size_t>(std::clamp(slice, 0, g.dimensions.z - 2));
+    return glm::dot(g.slice_positions[at + 1] - g.slice_positions[at], normal);
+  };
+  VoxelSums sums;
+  for (std::size_t n = 0; n < image.inside.size(); ++n) {
+    if (image.inside[n] == 0) continue;
+    const auto i = static_cast<int>(n) % g.dimensions.x, j = static_cast<int>(n) / g.dimensions.x % g.dimensions.y;
+    const int k = static_cast<int>(n) / g.dimensions.x / g.dimensions.y;
+    const double below = 0.5 * apart(k - 1), above = 0.5 * apart(k);
+    const double volume = (below + above) * g.spacing_i * g.spacing_j;
+    ++sums.inside;
+    sums.volume_mm3 += volume;
+    sums.centroid_mm += volume * (g.to_patient(Vec3(i, j, k)) + 0.5 * (above - below) * normal);
+  }
+  sums.centroid_mm /= sums.volume_mm3;
+  return sums;
+}
+
 /// The reader's field has every voxel's center on its side where the grid is at right angles: so it has read every
 /// voxel. On a tilted one it has their number and their center; pydicom has them all (outline_peers_test.cpp).
 inline void expect_same_voxels(const LabelImage& written, const Structure& read, bool is_straight) {
@@ -39,8 +73,7 @@ inline void expect_same_voxels(const LabelImage& written, const Structure& read,
   distance.scan = &written.geometry;
   const auto field = load_distance(read, distance);
   const glm::ivec3& n = written.geometry.dimensions;
-  std::size_t inside = 0, wrong = 0;
-  Vec3 sum(0);
+  std::size_t wrong = 0;
   for (int k = 0; k < n.z; ++k) {
     for (int j = 0; j < n.y; ++j) {
       for (int i = 0; i < n.x; ++i) {
@@ -48,17 +81,17 @@ inline void expect_same_voxels(const LabelImage& written, const Structure& read,
         const Vec3 at = written.geometry.to_patient(Vec3(i, j, k));
         const bool is = field->sample(at).mm > 0;
         wrong += was != is ? 1 : 0;
-        inside += was ? 1 : 0;
-        sum += was ? at : Vec3(0);
       }
     }
   }
   if (is_straight) {
     EXPECT_EQ(wrong, 0U);
   }
-  const StructureMeasures measures = measure(read);
-  EXPECT_EQ(measures.voxels, inside);
-  EXPECT_LT(glm::length(measures.centroid_mm - sum / static_cast<double>(inside)), 1e-6);
+  const StructureMeasures measures = measure(read, &written.geometry);
+  const VoxelSums sums = sums_of(written);
+  EXPECT_EQ(measures.voxels, sums.inside);
+  EXPECT_NEAR(measures.volume_mm3, sums.volume_mm3, 1e-5 * sums.volume_mm3);
+  EXPECT_LT(glm::length(measures.centroid_mm - sums.centroid_mm), 1e-5);
 }
 
 }  // namespace palpate::io::testing
