@@ -46,6 +46,37 @@ TEST_F(OrthancTest, TakesWhatIsSent) {
   EXPECT_TRUE(has(archive(), another_mr, sent.files, folder("found")));
 }
 
+/// One class of images, as they are and compressed: each syntax is proposed, so that each file goes as it is.
+TEST_F(OrthancTest, TakesFilesOfOneClassInSeveralSyntaxes) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(made_series() / another_mr)) files.push_back(entry.path());
+  ASSERT_GE(files.size(), 3U);
+  const fs::path compressed = folder("compressed.dcm");
+  ASSERT_EQ(std::system(("dcmcrle " + files[1].string() + " " + compressed.string()).c_str()), 0);
+  for (const std::vector<fs::path>& sent : {std::vector{files[0], compressed}, {compressed, files[0], files[2]}}) {
+    const Sent taken = send(archive(), sent);
+    EXPECT_EQ(taken.files, sent.size());
+    EXPECT_TRUE(taken.not_sent.empty());
+  }
+}
+
+/// Nothing is asked of an archive where there is nothing to send: each file has its reason.
+TEST(Send, WithoutAnImageSaysWhyAndConnectsToNobody) {
+  Archive nobody;
+  nobody.name = "nobody";
+  nobody.host = "127.0.0.1";
+  nobody.port = 1;
+  EXPECT_EQ(send(nobody, {}).files, 0U);
+  const fs::path notes = fs::path(::testing::TempDir()) / "palpate-notes.txt";
+  std::ofstream(notes) << "not an image";
+  const Sent sent = send(nobody, {notes, notes});
+  EXPECT_EQ(sent.files, 0U);
+  ASSERT_EQ(sent.not_sent.size(), 2U);
+  EXPECT_EQ(sent.not_sent.front().file, notes);
+  EXPECT_TRUE(says(sent.not_sent.front().why, "not a DICOM file that can be sent"));
+  fs::remove(notes);
+}
+
 // What it has taken by then stays there, and no more comes.
 TEST_F(OrthancTest, KeepsWhatWasSentBeforeACancel) {
   const std::string& name = another_ct;  // no other test sends it

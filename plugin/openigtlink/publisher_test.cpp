@@ -35,26 +35,27 @@ struct Published {
     ring->push(tick, {});
     return tick;
   }
-  /// The patient's x, mm, in the frames of such a tick; none: none are sent.
-  std::optional<double> x_of(std::uint32_t epoch, double part) {
+  /// The patient's x, mm, in the frames of such a tick; none: none came in that time.
+  std::optional<double> x_of(std::uint32_t epoch, double part, int milliseconds = 10000) {
     const double stamp = publisher->stamp_of(write(epoch, part));
-    while (const auto frame = client.next("TRANSFORM", stylus_name, 200)) {
+    while (const auto frame = client.next("TRANSFORM", stylus_name, milliseconds)) {
       if (std::abs(frame->time_s - stamp) < 0.01) return -transform_of(frame->content).translation.x;
     }
     return std::nullopt;
   }
+  bool sends(std::uint32_t epoch, double part) { return x_of(epoch, part, 200).has_value(); }
 };
 
 TEST(Publisher, SendsThePlaceOfEachTicksScene) {
   Published published;
-  EXPECT_FALSE(published.x_of(3, 1)) << "its mapping is not known";
+  EXPECT_FALSE(published.sends(3, 1)) << "its mapping is not known";
   published.publisher->set_workspace(4, at_x(1));
-  EXPECT_FALSE(published.x_of(3, 1)) << "of a scene before";
+  EXPECT_FALSE(published.sends(3, 1)) << "of a scene before";
   EXPECT_EQ(published.x_of(4, 0.5), 1);
   published.publisher->set_workspace(5, at_x(11));
   EXPECT_EQ(published.x_of(4, 1), 1);
   EXPECT_EQ(published.x_of(5, 0.5), 6);
-  EXPECT_FALSE(published.x_of(6, 0.5)) << "its mapping comes next";
+  EXPECT_FALSE(published.sends(6, 0.5)) << "its mapping comes next";
 }
 
 /// The session takes the newest scene: the transition is from what was felt.
@@ -66,7 +67,7 @@ TEST(Publisher, SendsNoPlaceOfASceneThatWasPassedOver) {
   published.publisher->set_workspace(2, at_x(10));
   EXPECT_EQ(published.x_of(2, 0.5), 5);
   published.publisher->set_ticks(published.ring);
-  EXPECT_FALSE(published.x_of(2, 1)) << "of a session before";
+  EXPECT_FALSE(published.sends(2, 1)) << "of a session before";
 }
 
 }  // namespace

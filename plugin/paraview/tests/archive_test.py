@@ -76,6 +76,15 @@ def kept_and_emptied():
     return in_an_archive("what_is_fetched_is_kept", act)
 
 
+def fetched_late():
+    name = "what_is_fetched_late_is_offered"
+
+    def act(archive):
+        return run(name, prepare=lambda _: enter("clinic", archive.options("--get")), PALPATE_DROP=phantom("sphere", "sphere"))
+
+    return in_an_archive(name, act)
+
+
 def entered():
     def act(archive):
         return run("an_archive_is_entered", PALPATE_ARCHIVE_PORT=str(archive.port), PALPATE_LISTEN_PORT=str(archive.ours))
@@ -207,6 +216,7 @@ if __name__ == "__main__":
         "felt_by_move": felt_from_the_archive,
         "felt_by_get": lambda: felt_from_the_archive("--get"),
         "kept_and_emptied": kept_and_emptied,
+        "fetched_late": fetched_late,
         "entered": entered,
         "entered_with_tls": entered_with_tls,
         "marks_sent": marks_sent,

@@ -99,6 +99,14 @@
         <translation>Holen und öffnen</translation>
     </message>
     <message>
+        <source>Open what was fetched</source>
+        <translation>Geholtes öffnen</translation>
+    </message>
+    <message>
+        <source>It was not opened by itself, because you opened another scan while it was fetched.</source>
+        <translation>Es wurde nicht von selbst geöffnet, weil Sie inzwischen eine andere Aufnahme geöffnet haben.</translation>
+    </message>
+    <message>
         <source>Fetches the selected series, or the whole study. A double click does the same.</source>
         <translation>Die markierte Serie oder die ganze Studie. Ein Doppelklick tut dasselbe.</translation>
     </message>

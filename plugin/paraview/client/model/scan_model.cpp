@@ -75,6 +75,7 @@ void ScanModel::set_in_views(in_views::State next) {
 // From a folder to a series.
 
 void ScanModel::open(const std::string& path) {
+  ++requests_;
   if (!may_leave()) return;
   world_.stop();
   give_up_fetching(words(say("cancelled")));
@@ -135,6 +136,7 @@ bool ScanModel::is_of_other_patient(const FoundList& found) const {
 }
 
 void ScanModel::choose(std::size_t series) {
+  ++requests_;
   const unsigned run = find_;
   if (found() && series < found()->count() && may_leave() && run == find_) bring(series);
 }

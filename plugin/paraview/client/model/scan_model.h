@@ -49,6 +49,8 @@ class ScanModel : public QObject {
   /// Why the views differ from what the stylus would feel, and what to do; empty if they agree.
   QString why_not_felt() const;
 
+  /// How often a scan was asked for, whatever became of it.
+  unsigned requests() const { return requests_; }
   /// Finds the series of a folder or file, as the active server names it. Shows it if exactly one of them is a volume.
   void open(const std::string& path);
   /// Shows one of the series that were found.
@@ -120,6 +122,7 @@ class ScanModel : public QObject {
   std::function<bool()> may_leave_;
   std::vector<std::string> copies_;  // of this machine, named by the user
   // The number of the latest request of each kind: answers to others are ignored.
+  unsigned requests_ = 0;
   unsigned find_ = 0, views_ = 0, fetch_ = 0, frame_ = 0;
 };
 

@@ -135,6 +135,7 @@ void ScanModel::add_copy(const std::string& folder) {
 }
 
 void ScanModel::restore(const SeriesRef& of, Brought brought) {
+  ++requests_;
   leave();
   ++find_;
   ++views_;

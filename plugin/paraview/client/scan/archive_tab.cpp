@@ -176,6 +176,8 @@ void ArchiveTab::fetch() {
     return;
   }
   tell({});
+  offer_->hide();
+  emit fetch_began();
   progress_->setRange(0, 0);
   progress_->setFormat(tr("Waiting for %1").arg(QString::fromStdString(asked->name)));
   fetching_.ask(
@@ -219,6 +221,11 @@ void ArchiveTab::take(const io::Fetched& fetched, const std::filesystem::path& f
   if (fetched.files > 0) emit this->fetched(QString::fromStdString(folder.string()));
 }
 
+void ArchiveTab::offer(const QString& folder) {
+  offered_ = folder;
+  offer_->show();
+}
+
 void ArchiveTab::count_on_disk() {
   counting_.ask([](const auto& /*job*/) { return fetched_on_disk(); },
                 [this](const auto& there, const QString& error) {
@@ -233,6 +240,7 @@ void ArchiveTab::count_on_disk() {
 }
 
 void ArchiveTab::empty() {
+  offer_->hide();
   const auto in_use = in_use_ ? in_use_() : std::vector<std::filesystem::path>();
   counting_.ask(
       [this, in_use](const auto& /*job*/) {

@@ -44,9 +44,15 @@ class ArchiveTab : public QWidget {
   /// The picture of an opened series, for its line here.
   void set_picture(const QString& series_uid, const QImage& picture);
 
+  /// Does not open what was fetched, but offers it: another scan was asked for meanwhile.
+  void offer(const QString& folder);
+
  signals:
+  void fetch_began();
   /// A study or series was fetched into a folder, and can be opened.
   void fetched(const QString& folder);
+  /// The user wants what was offered.
+  void offer_taken(const QString& folder);
 
  protected:
   /// Reads the archives again, which may have changed elsewhere.
@@ -78,6 +84,7 @@ class ArchiveTab : public QWidget {
   ArchiveSearch* search_ = nullptr;
   QTreeWidget* found_ = nullptr;
   QPushButton* fetch_ = nullptr;
+  QPushButton* offer_ = nullptr;
   QProgressBar* progress_ = nullptr;
   QPushButton* cancel_ = nullptr;
   QLabel* on_disk_ = nullptr;
@@ -85,6 +92,7 @@ class ArchiveTab : public QWidget {
   QLabel* message_ = nullptr;
 
   std::function<std::vector<std::filesystem::path>()> in_use_;
+  QString offered_;
   std::vector<io::Archive> entered_;
   QHash<QString, QIcon> pictures_;  // by series UID
   std::vector<QString> unlisted_;   // studies whose series are to be requested

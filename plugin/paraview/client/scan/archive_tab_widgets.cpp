@@ -82,6 +82,15 @@ void ArchiveTab::build_fetch() {
   });
   work->addWidget(cancel_);
   static_cast<QVBoxLayout*>(layout())->addLayout(work);
+  offer_ = new QPushButton(tr("Open what was fetched"), this);
+  offer_->setObjectName(QStringLiteral("palpateOpenFetched"));
+  offer_->setToolTip(tr("It was not opened by itself, because you opened another scan while it was fetched."));
+  offer_->hide();
+  connect(offer_, &QPushButton::clicked, this, [this] {
+    offer_->hide();
+    emit offer_taken(offered_);
+  });
+  layout()->addWidget(offer_);
 
   auto* const disk = new QHBoxLayout;
   auto* const keep = new QCheckBox(tr("Keep"), this);

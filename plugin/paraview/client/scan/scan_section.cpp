@@ -103,7 +103,11 @@ void ScanSection::build_tabs() {
     folder_->setVisible(tab == 0);
     archive_->setVisible(tab == 1);
   });
-  connect(archive_, &ArchiveTab::fetched, this, [this](const QString& folder) { open(folder.toStdString()); });
+  connect(archive_, &ArchiveTab::fetch_began, this, [this] { requests_before_fetch_ = model_.requests(); });
+  connect(archive_, &ArchiveTab::fetched, this, [this](const QString& folder) {
+    model_.requests() == requests_before_fetch_ ? open(folder.toStdString()) : archive_->offer(folder);
+  });
+  connect(archive_, &ArchiveTab::offer_taken, this, [this](const QString& folder) { open(folder.toStdString()); });
 }
 
 /// The tab of the folder: buttons to open one, and the series found in it.

@@ -61,6 +61,7 @@ class ScanSection : public QWidget {
   ScanModel& model_;
   QTabBar* tabs_ = nullptr;
   ArchiveTab* archive_ = nullptr;
+  unsigned requests_before_fetch_ = 0;
   QWidget* folder_ = nullptr;
   SeriesList* series_ = nullptr;
   QProgressBar* progress_ = nullptr;

@@ -120,6 +120,28 @@ void what_is_fetched_is_kept() {
   scan_is_shown();
 }
 
+/// A scan that was asked for later is not replaced by one that was asked for before it.
+void what_is_fetched_late_is_offered() {
+  open_archive_tab();
+  choose(first_series());
+  auto& offer = find<QPushButton>("palpateOpenFetched");
+  click("palpateFetch");
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
+  wait_for(
+      "it is fetched, and offered", [&] { return !offer.isHidden(); }, 60);
+  scan_is_shown();
+  connect_stylus();
+  const unsigned first = reader_in_pipeline();
+  press();
+  save_screen("archive-offered");
+  expect(number("palpateForce") > 0.1, "the other scan is felt all the while");
+  let_go();
+  click("palpateScanSectionFold");
+  click("palpateOpenFetched");
+  another_scan_is_shown(first);
+  expect(offer.isHidden(), "it is open");
+}
+
 /// In a program of its own, after the one before.
 void what_was_kept_is_emptied() {
   open_archive_tab();
@@ -255,6 +277,7 @@ const Scenarios& archive_scenarios() {
   static const Scenarios scenarios{
       {"felt_from_the_archive", felt_from_the_archive},
       {"what_is_fetched_is_kept", what_is_fetched_is_kept},
+      {"what_is_fetched_late_is_offered", what_is_fetched_late_is_offered},
       {"what_was_kept_is_emptied", what_was_kept_is_emptied},
       {"an_archive_is_entered", an_archive_is_entered},
       {"a_fetch_is_cancelled", a_fetch_is_cancelled},
