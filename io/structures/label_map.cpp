@@ -126,7 +126,10 @@ class Labels {
     const auto compare = [&](bool is_there, const std::vector<int>& labels, std::size_t back) {
       if (!is_there) return;
       ++pairs_;
-      changes_ += labels[n - back] == here_[n] ? 0 : 1;
+      const int other = labels[n - back];
+      changes_ += other == here_[n] ? 0 : 1;
+      touching_ += other == 0 ? 0 : 1;
+      differing_ += other == 0 || other == here_[n] ? 0 : 1;
     };
     compare(voxel % columns > 0, here_, layers);
     compare(voxel >= columns, here_, layers * columns);
@@ -147,10 +150,14 @@ class Labels {
     last_->high = glm::max(last_->high, at);
   }
   std::size_t most_labels() const { return is_named_ && !image_.said_to_be_labels ? 256 : 4096; }
-  /// Labels adjoin themselves along all axes; an image's values differ from voxel to voxel.
+  /// Labels adjoin themselves along all axes; an image's values differ from voxel to voxel. What the user says are
+  /// labels may be as thin as a voxel, but hardly any voxel of them has another label beside it.
   bool looks_like_an_image() const {
+    if (image_.said_to_be_labels || boxes_.size() <= 2) return false;
+    constexpr double most_differing = 0.9;
+    if (is_named_) return static_cast<double>(differing_) > most_differing * static_cast<double>(touching_);
     constexpr std::uint64_t least = 3;
-    return !is_named_ && !image_.said_to_be_labels && changes_ * least > pairs_ && boxes_.size() > 2;
+    return changes_ * least > pairs_;
   }
 
   const VoxelFile& image_;
@@ -158,7 +165,8 @@ class Labels {
   std::map<int, Box> boxes_;
   std::vector<int> below_, here_;  // of the slice below and of this one
   bool has_below_ = false, is_map_ = true;
-  std::uint64_t pairs_ = 0, changes_ = 0;  // voxels with a label and those before them; and where the two differ
+  std::uint64_t pairs_ = 0, changes_ = 0;       // voxels with a label and those before them; and where the two differ
+  std::uint64_t touching_ = 0, differing_ = 0;  // the same of pairs that have a label both
   std::uint64_t too_large_ = 0;
   Box* last_ = nullptr;
   int last_label_ = 0, last_layer_ = -1;

@@ -338,13 +338,17 @@ TEST(LabelMap, LabelsThatAreTooLargeAreRefusedInWords) {
   }
 }
 
-// In a folder an image is a scan. A file that the user names as a label map is one, or it is refused with a reason.
-TEST(LabelMap, AnImageIsNoneUnlessTheUserNamesIt) {
+// In a folder an image is a scan. A file that the user names as a label map is refused with a reason if it is an image.
+TEST(LabelMap, AnImageIsNoneAndSaysSoIfTheUserNamesIt) {
   std::string noise(12, '\0');
   for (std::size_t n = 0; n < noise.size(); ++n) noise[n] = static_cast<char>(n + 1);
   const fs::path few = write("image.nii", Nifti().start() + noise);
   EXPECT_TRUE(find_structures(std::array{few.parent_path()}).structures.empty());
-  EXPECT_EQ(find_structures(std::array{few}).structures.size(), 12U);
+  EXPECT_TRUE(find_structures(std::array{few}).structures.empty());
+  EXPECT_EQ(find_structures(std::array{few}).skipped.size(), 1U);
+  // Labels of a voxel each, apart: marks of electrodes.
+  const auto marks = [](const glm::ivec3& at) { return at.x % 3 == 1 && at.y == 5 && at.z == 5 ? at.x / 3 + 1 : 0; };
+  EXPECT_EQ(find_structures(std::array{written_volume<std::int32_t>(glm::ivec3(12), marks)}).structures.size(), 4U);
   const auto values = [](const glm::ivec3& at) { return (at.x * 131 + at.y * 71 + at.z * 37) % 1999 + 1; };
   const auto scan = [](const glm::ivec3& at) { return at.x + 0.3 * at.y - 5.0; };
   for (const bool is_whole : {true, false}) {

@@ -85,8 +85,8 @@ struct StructureCatalogue {
 };
 
 /// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored. In a
-/// folder, a file that holds labels or an image is a label map if its values look like labels; if the file itself is
-/// named, it is tried anyway.
+/// folder, a file that holds labels or an image is a label map if its values look like labels. Of a file that is itself
+/// named labels may be as thin as a voxel, and an image is skipped with a reason.
 /// Throws DicomError if a path does not exist, and Cancelled.
 StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 

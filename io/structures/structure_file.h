@@ -25,7 +25,7 @@ struct StructureDataset {
 std::vector<Structure> structures_of_segmentation(const StructureDataset& file);
 std::vector<Structure> structures_of_contours(const StructureDataset& file);
 /// NIfTI, NRRD and MetaImage. Adds none if it is another kind of file, or an image. `is_named`: the user says that this
-/// file is a label map; then an image is one if it has few values, or is refused.
+/// file is a label map; then its labels may be as thin as a voxel, and an image is refused.
 std::vector<Structure> structures_of_label_map(const std::filesystem::path& path, bool is_named);
 /// Whether the values of such a file are labels and not a scan. Reads no more than it needs.
 bool is_label_map(const VoxelFile& file);
