@@ -57,7 +57,8 @@ TEST_F(OrthancTest, DoesAllOfItWithTls) {
            "TLS with {} failed: check --tls-ca, --tls-certificate and --tls-key, and that the port speaks TLS"));
   Archive unreadable = secure;
   unreadable.tls.key = certificates / "no-such.key";
-  EXPECT_THAT(refusal([&] { echo(unreadable); }), HasSubstr("--tls-key " + unreadable.tls.key.string() + " cannot be used for TLS"));
+  EXPECT_THAT(refusal([&] { echo(unreadable); }),
+              HasSubstr("--tls-key " + unreadable.tls.key.string() + " cannot be used for TLS"));
   Archive mixed_up = secure;
   mixed_up.tls.key = certificates / "archive.key";
   EXPECT_TRUE(
