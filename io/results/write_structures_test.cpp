@@ -50,8 +50,10 @@ std::string refusal(const std::function<void()>& work) {
   return "no refusal";
 }
 
-TEST(WriteSegmentation, IsReadVoxelForVoxelOnEveryGrid) {
-  for (const ScanKind& kind : testing::scan_kinds()) {
+/// Calls `work` for each shape on each scan, which was written as a segmentation and read again.
+template <typename Work>
+void for_written(const std::vector<ScanKind>& kinds, const Work& work) {
+  for (const ScanKind& kind : kinds) {
     const TestFolder folder;
     const Series scan = testing::write_scan(kind, folder / "scan");
     for (const Shape& shape : testing::shapes_in(scan.geometry)) {
@@ -59,16 +61,22 @@ TEST(WriteSegmentation, IsReadVoxelForVoxelOnEveryGrid) {
       const fs::path file = folder / (shape.name + ".dcm");
       const LabelImage image = sample_labels(full_label(), scan.geometry, shape.distance);
       write_segmentation(image, scan, file, options());
-      const Structure read = only_structure_in(file);
-      EXPECT_EQ(read.name, full_label().name);
-      EXPECT_EQ(read.color, full_label().color);
-      EXPECT_EQ(read.code, "SCT 10200004 Liver");
-      EXPECT_EQ(read.frame_of_reference_uid, "1.2.3.9");
-      EXPECT_EQ(read.study_uid, "1.2.3");
-      EXPECT_EQ(read.patient_name, "Müller^Zoë");
-      expect_same_voxels(image, read, kind.name != "tilted");
+      work(kind, shape, scan, image, only_structure_in(file));
     }
   }
+}
+
+TEST(WriteSegmentation, IsReadVoxelForVoxelOnEveryGrid) {
+  for_written(testing::scan_kinds(), [](const ScanKind& kind, const Shape& /*shape*/, const Series& /*scan*/,
+                                        const LabelImage& image, const Structure& read) {
+    EXPECT_EQ(read.name, full_label().name);
+    EXPECT_EQ(read.color, full_label().color);
+    EXPECT_EQ(read.code, "SCT 10200004 Liver");
+    EXPECT_EQ(read.frame_of_reference_uid, "1.2.3.9");
+    EXPECT_EQ(read.study_uid, "1.2.3");
+    EXPECT_EQ(read.patient_name, "Müller^Zoë");
+    expect_same_voxels(image, read, kind.name != "tilted");
+  });
 }
 
 /// Its voxels, on the box around those that are inside.
@@ -120,44 +128,36 @@ std::vector<ScanKind> uneven_scans() {
 // A step over a lost slice and a larger slice distance are steps like any other: no slice is between, and none is
 // empty.
 TEST(WriteSegmentation, IsReadWithTheSameDistancesOnUnevenSlices) {
-  for (const ScanKind& kind : uneven_scans()) {
-    const TestFolder folder;
-    const Series scan = testing::write_scan(kind, folder / "scan");
-    for (const Shape& shape : testing::shapes_in(scan.geometry)) {
-      SCOPED_TRACE(kind.name + ", " + shape.name);
-      const fs::path file = folder / (shape.name + ".dcm");
-      const LabelImage image = sample_labels(full_label(), scan.geometry, shape.distance);
-      write_segmentation(image, scan, file, options());
-      const Structure read = only_structure_in(file);
-      DistanceOptions distance;
-      distance.scan = &scan.geometry;
-      const auto before = distance_of(mask_of(image), distance);
-      const auto field = load_distance(read, distance), alone = load_distance(read);
-      double most = 0;
-      const glm::ivec3& n = scan.geometry.dimensions;
-      std::size_t inside = 0, cut = 0;
-      for (int k = 0; k + 1 < n.z; ++k) {
-        for (int j = 0; j < n.y; ++j) {
-          for (int i = 0; i < n.x; ++i) {
-            for (const double between : {0.0, 0.5}) {
-              const Vec3 at = scan.geometry.to_patient(Vec3(i, j, k + between));
-              const double mm = before->sample(at).mm;
-              if (std::abs(mm) < 3) most = std::max(most, std::abs(field->sample(at).mm - mm));
-            }
-            if (image.inside[image.offset(i, j, k)] == 0 || image.inside[image.offset(i, j, k + 1)] == 0) continue;
-            ++inside;
-            cut += alone->sample(scan.geometry.to_patient(Vec3(i, j, k + 0.5))).mm < -0.25 ? 1 : 0;
+  for_written(uneven_scans(), [](const ScanKind& kind, const Shape& shape, const Series& scan, const LabelImage& image,
+                                 const Structure& read) {
+    DistanceOptions distance;
+    distance.scan = &scan.geometry;
+    const auto before = distance_of(mask_of(image), distance);
+    const auto field = load_distance(read, distance), alone = load_distance(read);
+    double most = 0;
+    const glm::ivec3& n = scan.geometry.dimensions;
+    std::size_t inside = 0, cut = 0;
+    for (int k = 0; k + 1 < n.z; ++k) {
+      for (int j = 0; j < n.y; ++j) {
+        for (int i = 0; i < n.x; ++i) {
+          for (const double between : {0.0, 0.5}) {
+            const Vec3 at = scan.geometry.to_patient(Vec3(i, j, k + between));
+            const double mm = before->sample(at).mm;
+            if (std::abs(mm) < 3) most = std::max(most, std::abs(field->sample(at).mm - mm));
           }
+          if (image.inside[image.offset(i, j, k)] == 0 || image.inside[image.offset(i, j, k + 1)] == 0) continue;
+          ++inside;
+          cut += alone->sample(scan.geometry.to_patient(Vec3(i, j, k + 0.5))).mm < -0.25 ? 1 : 0;
         }
       }
-      const bool on_nodes = kind.name != "uneven" && kind.name != "1.2 and 2 mm";
-      EXPECT_LT(most, on_nodes ? 0.01 : 2.0);
-      if (shape.name != "shell and ball") {  // thinner than a step over a lost slice
-        EXPECT_LE(cut * 50, inside) << "without the scan, too";
-      }
-      EXPECT_NEAR(measure(read, &scan.geometry).volume_mm3, testing::sums_of(image).volume_mm3, 0.01);
     }
-  }
+    const bool on_nodes = kind.name != "uneven" && kind.name != "1.2 and 2 mm";
+    EXPECT_LT(most, on_nodes ? 0.01 : 2.0);
+    if (shape.name != "shell and ball") {  // thinner than a step over a lost slice
+      EXPECT_LE(cut * 50, inside) << "without the scan, too";
+    }
+    EXPECT_NEAR(measure(read, &scan.geometry).volume_mm3, testing::sums_of(image).volume_mm3, 0.01);
+  });
 }
 
 /// The codes go through a file and back, and so do lists of references.

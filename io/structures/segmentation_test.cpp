@@ -20,8 +20,11 @@
 namespace palpate::io {
 namespace {
 
+using internal::box;
 using internal::group;
+using internal::other_box;
 using internal::put;
+using internal::segments_found_in;
 using internal::succeed;
 using internal::TestFolder;
 using internal::TestImage;
@@ -33,21 +36,10 @@ using Frame = TestSegmentation::Frame;
 
 constexpr int columns = TestSegmentation::columns, rows = TestSegmentation::rows;
 
-int box(int i, int j) {
-  return i >= 3 && i < 8 && j >= 2 && j < 6 ? 1 : 0;
-}
-int other_box(int i, int j) {
-  return i >= 6 && i < 11 && j >= 4 && j < 8 ? 1 : 0;
-}
-
-StructureCatalogue structures_in(const TestFolder& folder) {
-  return find_structures(std::array{folder.path()});
-}
-
 StructureCatalogue found_of(const TestSegmentation& segmentation) {
   const TestFolder folder;
   write(segmentation, folder / "seg.dcm");
-  StructureCatalogue catalogue = structures_in(folder);
+  StructureCatalogue catalogue = segments_found_in(folder);
   for (Structure& structure : catalogue.structures) {
     if (structure.unfit.empty()) measure(structure);
   }
@@ -64,7 +56,7 @@ TEST(Segmentations, AreReadInAnyOrderSparseAndOverlapping) {
   write({.names = {"Liver", "Tumor"},
          .frames = {{1, 6, box}, {2, 0, other_box}, {1, 0, box}, {2, 6, other_box}, {1, 4, box}}},
         folder / "seg.dcm");
-  const StructureCatalogue catalogue = structures_in(folder);
+  const StructureCatalogue catalogue = segments_found_in(folder);
   ASSERT_EQ(catalogue.structures.size(), 2U);
   const Structure& liver = catalogue.structures[0];
   EXPECT_EQ(liver.name, "Liver");
@@ -91,7 +83,7 @@ TEST(Segmentations, EachSegmentHasAName) {
   };
   write(segmentation, folder / "seg.dcm");
   std::vector<std::string> names;
-  for (const Structure& structure : structures_in(folder).structures) names.push_back(structure.name);
+  for (const Structure& structure : segments_found_in(folder).structures) names.push_back(structure.name);
   EXPECT_EQ(names, (std::vector<std::string>{"Liver", "Spleen", "segment 3"}));
 }
 
@@ -99,7 +91,7 @@ TEST(Segmentations, OfFractionsHaveTheirEdgeAtHalf) {
   const TestFolder folder;
   const auto rising = [](int i, int) { return 20 * i; };  // 100 of 200 at column 5
   write({.type = "FRACTIONAL", .bits = 8, .frames = {{1, 0, rising}, {1, 2, rising}}}, folder / "seg.dcm");
-  EXPECT_EQ(voxels_of(structures_in(folder).structures.at(0)), 2U * rows * (columns - 5));
+  EXPECT_EQ(voxels_of(segments_found_in(folder).structures.at(0)), 2U * rows * (columns - 5));
 }
 
 // Nothing up to column 4, 60 of 200 in column 5, all of what follows: the edge lies within column 5.
@@ -111,7 +103,7 @@ TEST(Segmentations, OfFractionsAreFeltWhereTheirFractionsSay) {
     for (int n = 0; n < 24; ++n) segmentation.frames.push_back({1, 2.0 * n, step});
     segmentation.edit = [&](DcmDataset& dataset) { put(dataset, DCM_SegmentationFractionalType, type); };
     write(segmentation, folder / "seg.dcm");
-    const Structure structure = structures_in(folder).structures.at(0);
+    const Structure structure = segments_found_in(folder).structures.at(0);
     Geometry scan;  // ends with the structure, which runs on through it
     scan.dimensions = {columns, rows, 24};
     scan.spacing_i = 0.75;
@@ -141,7 +133,7 @@ TEST(Segmentations, OfLabelsHaveOneAFrame) {
     const auto labels = [](int i, int j) { return box(i, j) != 0 ? 1 : (other_box(i, j) != 0 ? 2 : 0); };
     write({.type = "LABELMAP", .bits = bits, .names = {"Liver", "Spleen"}, .frames = {{0, 0, labels}, {0, 2, labels}}},
           folder / "seg.dcm");
-    const StructureCatalogue catalogue = structures_in(folder);
+    const StructureCatalogue catalogue = segments_found_in(folder);
     ASSERT_EQ(catalogue.structures.size(), 2U);
     EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
     EXPECT_EQ(voxels_of(catalogue.structures[1]), 2U * (20U - 4U));
@@ -166,7 +158,7 @@ TEST(Segmentations, OfLabelsHoldNumbersOfSixteenBits) {
           dataset.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())));
     };
     write(segmentation, folder / "seg.dcm");
-    const Structure liver = structures_in(folder).structures.at(0);
+    const Structure liver = segments_found_in(folder).structures.at(0);
     const StructureMeasures measures = measure(liver);
     EXPECT_EQ(measures.voxels, 2U * 20U) << syntax;
     // Columns 3 to 7 and rows 2 to 5.
@@ -207,7 +199,7 @@ TEST(Segmentations, OfBitsAreReadRunLengthCodedAndDeflated) {
     };
     write(segmentation, folder / "seg.dcm");
     if (deflated) internal::call_deflated_frames(folder / "seg.dcm");
-    const StructureCatalogue catalogue = structures_in(folder);
+    const StructureCatalogue catalogue = segments_found_in(folder);
     ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
     const StructureMeasures measures = measure(catalogue.structures[0]);
     EXPECT_EQ(measures.voxels, 20U + 20U);
@@ -215,30 +207,6 @@ TEST(Segmentations, OfBitsAreReadRunLengthCodedAndDeflated) {
     EXPECT_NEAR(measures.box_high_mm.x, 0.75 * 10, 1e-9);
     EXPECT_NEAR(measures.centroid_mm.x, 0.75 * 0.5 * (5 + 8), 1e-9);
     EXPECT_NEAR(measures.centroid_mm.y, 0.5 * 0.5 * (3.5 + 5.5), 1e-9);
-  }
-}
-
-// Positions differ in their last digits from frame to frame, and a slice may have several frames of a segment.
-TEST(Segmentations, FramesNearlyAtOnePlaceAreOnOneSlice) {
-  // The second of them within the other box; all between them is no part of it.
-  const auto two_voxels = [](int i, int j) { return (i == 3 && j == 2) || (i == 10 && j == 7) ? 1 : 0; };
-  for (const double off : {-0.004, 0.004}) {
-    const TestFolder folder;
-    write({.names = {"Liver", "Tumor"},
-           .frames = {{1, 0, box},
-                      {1, 2, box},
-                      {1, 4, box},
-                      {2, 2 + off, other_box},
-                      {2, 4 + off, other_box},
-                      {2, 4 - off, two_voxels}}},
-          folder / "seg.dcm");
-    const StructureCatalogue catalogue = structures_in(folder);
-    const StructureMeasures liver = measure(catalogue.structures.at(0)), tumor = measure(catalogue.structures.at(1));
-    EXPECT_NEAR(liver.volume_mm3, 3 * 20 * 0.5 * 0.75 * 2, 0.2);
-    EXPECT_EQ(tumor.voxels, 20U + 21U);
-    EXPECT_NEAR(tumor.box_low_mm.z, 2, 0.01);
-    EXPECT_NEAR(tumor.box_high_mm.z, 4, 0.01);
-    EXPECT_NEAR(tumor.volume_mm3, 41 * 0.5 * 0.75 * 2, 0.2);
   }
 }
 
@@ -254,33 +222,8 @@ TEST(Segmentations, FramesShareTheirPixelsSize) {
       internal::succeed(group(*second, DCM_PixelMeasuresSequence).putAndInsertString(DCM_PixelSpacing, text));
     };
     write(segmentation, folder / "seg.dcm");
-    EXPECT_EQ(structures_in(folder).skipped.empty(), fits) << spacing;
+    EXPECT_EQ(segments_found_in(folder).skipped.empty(), fits) << spacing;
   }
-}
-
-// Slices without a frame are there where all distances are multiples of the least one, or of what is said to be the
-// spacing, to a twentieth; else the slices are those that have frames.
-TEST(Segmentations, SlicesThatHaveNoFrameAreWhereTheirSpacingSays) {
-  const auto slice_mm = [](const std::vector<double>& heights, const char* spacing) {
-    TestSegmentation segmentation;
-    for (const double height : heights) segmentation.frames.push_back({1, height, box});
-    segmentation.edit = [&](DcmDataset& dataset) {
-      if (*spacing == 0) return;
-      DcmItem& shared = group(dataset, DCM_SharedFunctionalGroupsSequence);
-      internal::succeed(group(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_SpacingBetweenSlices, spacing));
-    };
-    const TestFolder folder;
-    write(segmentation, folder / "seg.dcm");
-    const StructureMeasures measures = measure(structures_in(folder).structures.at(0));
-    return measures.volume_mm3 / (static_cast<double>(*measures.voxels) * 0.5 * 0.75);
-  };
-  EXPECT_NEAR(slice_mm({0, 2, 8}, ""), 2, 1e-9);
-  EXPECT_NEAR(slice_mm({0, 2, 6.18}, ""), (2 + 2.045 + 2.09) / 3, 1e-9) << "half of the way to the slices beside";
-  EXPECT_NEAR(slice_mm({0, 2, 6.22}, ""), 6.22 / 2, 1e-9);
-  EXPECT_NEAR(slice_mm({0, 6}, ""), 6, 1e-9);
-  EXPECT_NEAR(slice_mm({0, 6}, "2"), 2, 1e-9);
-  EXPECT_NEAR(slice_mm({0, 6}, "-2"), 2, 1e-9);
-  EXPECT_NEAR(slice_mm({5}, "2.5"), 2.5, 1e-9);
 }
 
 TEST(Segmentations, AreReadCompressed) {
@@ -294,7 +237,7 @@ TEST(Segmentations, AreReadCompressed) {
         1U << 16U);
   };
   write(segmentation, folder / "seg.dcm");
-  const StructureCatalogue catalogue = structures_in(folder);
+  const StructureCatalogue catalogue = segments_found_in(folder);
   ASSERT_EQ(catalogue.structures.size(), 1U) << (catalogue.skipped.empty() ? Text() : catalogue.skipped[0].reason);
   EXPECT_EQ(voxels_of(catalogue.structures[0]), 2U * 20U);
 }
@@ -350,53 +293,6 @@ TEST(Segmentations, AreRefusedInWords) {
             "its MaximumFractionalValue is not above 0: export it again");
   EXPECT_THAT(edited([](DcmDataset& d) { d.putAndInsertUint8Array(DCM_PixelData, nullptr, 0); }),
               HasSubstr("bytes of pixels"));
-}
-
-// At one height all frames begin at one place. From height to height they may not: slices may be sheared.
-TEST(Segmentations, FramesBesideEachOtherAreRefused) {
-  for (const auto& [place, refused] : {std::pair{"0.4\\0\\2", true},
-                                       {"0\\-3\\2", true},
-                                       {"0.005\\0.005\\2", false},
-                                       {"0\\0\\2", false},
-                                       {"3\\-2\\4", false}}) {
-    TestSegmentation segmentation{.names = {"Liver", "Tumor"}, .frames = {{1, 0, box}, {1, 2, box}, {2, 2, box}}};
-    segmentation.edit = [text = place](DcmDataset& dataset) {
-      DcmItem* third = nullptr;
-      succeed(dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, third, 2));
-      succeed(group(*third, DCM_PlanePositionSequence).putAndInsertString(DCM_ImagePositionPatient, text));
-    };
-    EXPECT_EQ(refusal_of(segmentation), refused ? "frames of it at one height begin at different places: export each "
-                                                  "segment as a segmentation of its own"
-                                                : "not refused")
-        << place;
-  }
-}
-
-// Frames that are numbered one after the other have no slice between them; those that are not have as many as there are
-// numbers. What the file says of their spacing comes first.
-TEST(Segmentations, SlicesBetweenNumberedFramesAreThoseOfTheirNumbers) {
-  const auto volumes = [](const std::vector<std::pair<double, int>>& slices, const char* spacing) {
-    TestSegmentation segmentation;
-    for (const auto& [height, number] : slices) segmentation.frames.push_back({1, height, box});
-    segmentation.edit = [&](DcmDataset& dataset) {
-      for (std::size_t n = 0; n < slices.size(); ++n) {
-        DcmItem* frame = nullptr;
-        succeed(dataset.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, frame, static_cast<long>(n)));
-        DcmItem& content = group(*frame, DCM_FrameContentSequence);
-        succeed(content.putAndInsertUint32(DCM_InStackPositionNumber, static_cast<Uint32>(slices[n].second)));
-      }
-      if (*spacing == 0) return;
-      DcmItem& shared = group(dataset, DCM_SharedFunctionalGroupsSequence);
-      succeed(group(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_SpacingBetweenSlices, spacing));
-    };
-    const TestFolder folder;
-    write(segmentation, folder / "seg.dcm");
-    return measure(structures_in(folder).structures.at(0)).volume_mm3 / (20 * 0.5 * 0.75);
-  };
-  EXPECT_NEAR(volumes({{0, 1}, {1, 2}, {2, 3}, {4, 4}, {6, 5}}, ""), 1 + 1 + 1.5 + 2 + 2, 1e-9);
-  EXPECT_NEAR(volumes({{0, 5}, {1, 4}, {3, 3}}, ""), 1 + 1.5 + 2, 1e-9) << "against the heights";
-  EXPECT_NEAR(volumes({{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}}, ""), 5, 1e-9);
-  EXPECT_NEAR(volumes({{0, 1}, {1, 2}, {3, 3}}, "1"), 3, 1e-9);
 }
 
 }  // namespace

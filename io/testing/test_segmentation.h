@@ -5,10 +5,14 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "io/structures/structure.h"
+#include "io/testing/test_image.h"
 
 namespace palpate::io::internal {
 
@@ -32,5 +36,17 @@ struct TestSegmentation {
 };
 
 void write(const TestSegmentation& segmentation, const std::filesystem::path& path);
+
+/// The pixels of two boxes of 20 pixels that overlap, as values of a frame.
+inline int box(int i, int j) {
+  return i >= 3 && i < 8 && j >= 2 && j < 6 ? 1 : 0;
+}
+inline int other_box(int i, int j) {
+  return i >= 6 && i < 11 && j >= 4 && j < 8 ? 1 : 0;
+}
+
+inline StructureCatalogue segments_found_in(const TestFolder& folder) {
+  return find_structures(std::array{folder.path()});
+}
 
 }  // namespace palpate::io::internal

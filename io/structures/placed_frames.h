@@ -1,0 +1,45 @@
+#pragma once
+
+/// Where the frames of a DICOM segmentation lie.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "io/dicom/stacking.h"
+#include "io/structures/segment_frames.h"
+
+class DcmItem;
+
+namespace palpate::io {
+
+struct PlacedFrame {
+  int segment = 0;
+  std::optional<int> in_stack;  ///< InStackPositionNumber
+  internal::Placement placement;
+  double spacing = 0;    ///< SpacingBetweenSlices, mm; 0 where it is not said
+  double thickness = 0;  ///< SliceThickness, mm; 0 where it is not said
+};
+
+/// Of the first `count` frames. Throws DicomError if one has no position, or no segment where it has to name one.
+std::vector<PlacedFrame> placed_frames(DcmItem& dataset, SegmentationType type, std::size_t count);
+
+/// Whether two frames lie on parallel planes with the same pixels.
+bool share_lattice(const internal::Placement& a, const internal::Placement& b);
+
+/// The slices that frames lie on, ascending.
+struct FrameSlices {
+  std::vector<Vec3> position;
+  std::vector<double> height;                    // along the normal, mm
+  std::vector<std::vector<std::size_t>> frames;  // of each
+};
+
+/// Frames nearly at one height are on one slice. Throws DicomError if they lie beside each other there.
+FrameSlices slices_of(const std::vector<PlacedFrame>& frames, const Vec3& normal);
+
+/// How many steps of the lattice lie from each slice with a frame to the next: empty slices are left out. Without a
+/// spacing, frames that are numbered say so; else all distances are multiples of the least one. All 1 if none of it
+/// fits.
+std::vector<int> steps_between(const FrameSlices& slices, const std::vector<PlacedFrame>& frames);
+
+}  // namespace palpate::io
