@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/fields/filtered.h"
 #include "io/quantile.h"
 #include "modes/scene/scene.h"
 #include "plugin/app/stylus_choice.h"
