@@ -74,9 +74,9 @@ TEST_F(ScanModelFollowed, TheLastFrameAskedForIsShown) {
 TEST_F(ScanModelFollowed, ParaViewsTimeIsFollowed) {
   show("1", 5);
   const auto apart = [this](int shown) {
-    const ScanHandle& felt = *model.shown();
+    const ScanHandle& scan = *model.shown();
     return words(
-        say("views-show-another-scan", felt.frame_in_words(shown).toStdString(), felt.frame_in_words(0).toStdString()));
+        say("views-show-another-scan", scan.frame_in_words(shown).toStdString(), scan.frame_in_words(0).toStdString()));
   };
   world.time = 2;
   model.follow_time();
