@@ -21,7 +21,7 @@ function(palpate_suite suite tests)
   endif()
   # More than half of all the time, by computing or waiting: `plugin/run check thorough` runs them, `plugin/run test` does not.
   set(labels "")
-  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|CompareOutlines|CorrectedDistance|DoubtfulPlaces|EachDevice/FaultTable|Hostile|LiveSession|OpenIgtHostile|RandomFaults|Regions|ScanEdge|ScanEdgeLaws|ScanShapes|Soak|SuggestAffine)$")
+  if(suite MATCHES "^(archive|CheckDevice|CommandDevices|CommandFuzz|CompareOutlines|CorrectedDistance|DoubtfulPlaces|EachDevice/FaultTable|Hostile|LiveSession|OpenIgtHostile|RandomFaults|Regions|ScanEdge|ScanEdgeLaws|ScanShapes|Soak|SuggestAffine|UnevenSlices)$")
     set(labels thorough)
     math(EXPR seconds "4 * ${seconds}")
   endif()

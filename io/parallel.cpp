@@ -35,8 +35,8 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
     }
   };
 
-  const auto wanted =
-      static_cast<std::size_t>(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()));
+  static const unsigned cores = std::max(1U, std::thread::hardware_concurrency());  // which reads a file each time
+  const auto wanted = static_cast<std::size_t>(threads > 0 ? threads : static_cast<int>(cores));
   {
     std::vector<std::jthread> helpers;
     for (std::size_t t = 1; t < std::min(wanted, count); ++t) helpers.emplace_back(run, false);

@@ -13,9 +13,11 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "io/structures/label_image.h"
 #include "io/structures/structure.h"
+#include "io/testing/outlined_scan.h"
 
 namespace palpate::io::testing {
 
@@ -33,6 +35,29 @@ inline std::string tag_text(DcmItem& item, const DcmTagKey& key) {
   OFString value;
   item.findAndGetOFStringArray(key, value);
   return value.c_str();
+}
+
+struct WrittenShape {
+  const ScanKind& kind;
+  const Shape& shape;
+  const Series& scan;
+  const LabelImage& image;
+};
+
+/// Writes each shape on each scan as a segmentation, and calls `work` with what was written and what was read.
+template <typename Work>
+void for_written(const std::vector<ScanKind>& kinds, const Work& work) {
+  for (const ScanKind& kind : kinds) {
+    const internal::TestFolder folder;
+    const Series scan = write_scan(kind, folder / "scan");
+    for (const Shape& shape : shapes_in(scan.geometry)) {
+      SCOPED_TRACE(kind.name + ", " + shape.name);
+      const std::filesystem::path file = folder / (shape.name + ".dcm");
+      const LabelImage image = sample_labels(full_label(), scan.geometry, shape.distance);
+      write_segmentation(image, scan, file, by_test);
+      work(WrittenShape{kind, shape, scan, image}, only_structure_in(file));
+    }
+  }
 }
 
 /// The volume and the centroid of an image's voxels, each of which reaches half of the way to the slices beside its

@@ -27,7 +27,7 @@ NEEDS = {
     "plugin": ["solver", "io", "device", "modes", "testdata", "plugin"],
 }
 # Besides a module's own tests: those that need an archive, where they are built.
-MORE_TESTS = {"io": ["archive_tests"], "plugin": ["command_archive_tests"]}
+MORE_TESTS = {"io": ["archive_tests", "results_tests"], "plugin": ["command_archive_tests"]}
 ORDER = ["solver", "io", "device", "modes", "testdata", "plugin"]
 NOT_COUNTED = ("_test.cpp", "_benchmark.cpp")
 

@@ -50,7 +50,7 @@ MODULES = {
     "plugin": ("plugin_tests", "solver;io;device;modes;testdata;plugin"),
 }
 # Folders whose tests are a program of their own, which alone judges them.
-OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "archive_tests", "plugin/paraview/client/model/": "paraview_model_tests"}
+OWN_TESTS = {"io/archive/": "archive_tests", "io/results/": "results_tests", "plugin/paraview/client/model/": "paraview_model_tests"}
 NEEDS_PARAVIEW = {"paraview_model_tests"}
 
 
