@@ -36,6 +36,10 @@ void PanelParts::connect_scan() {
   QObject::connect(&servers, &ServerWatch::leaving, &dock, [this] { leave_server(); });
   QObject::connect(&servers, &ServerWatch::lost, &dock, [this] { leave(words(say("server-is-lost"))); });
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, &dock, [this] { adopt_state(); });
+  QObject::connect(column->scan, &ScanSection::fetch_offered, &dock, [this] {
+    column->scan_fold->set_open(true);
+    column->scan->show_archive();
+  });
   open_first_folder(dock, [this](const std::string& folder) { column->scan->open(folder); });
 }
 
@@ -66,7 +70,7 @@ void PanelParts::show_scan(const ScanHandle& handle, Brought brought) {
   session.begin_outside();
   show_structures(handle);
   note_scan(handle);
-  column->scan_fold->set_open(false);
+  column->scan_fold->set_open(column->scan->offers_fetched());
   layout->refresh_tabs();
   column->study->study(handle.volume);
   layers.memory.give_back_soon();  // of what made way for it

@@ -35,6 +35,7 @@ UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& win
     return may_lose(work_.of_scan(), tr("Another scan is about to replace this one."),
                     [this] { work_.let_scene_go(); });
   });
+  connect(&scans, &ScanModel::not_coming, this, [this] { work_.keep_scene(); });
   new HostGuards(
       window,
       [this] { return may_lose(work_.of_program(), tr("ParaView is about to end."), [this] { work_.let_all_go(); }); },

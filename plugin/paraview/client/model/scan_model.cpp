@@ -104,6 +104,7 @@ void ScanModel::list(const FoundList& found, const std::string& error) {
   if (!error.empty()) {
     set_coming(coming::Nothing{});
     tell(text(error), true);
+    emit not_coming();
     return;
   }
   if (found.catalogue && seen() && is_of_other_patient(found)) {
@@ -119,6 +120,7 @@ void ScanModel::list(const FoundList& found, const std::string& error) {
   set_coming(coming::Choosing{found});
   if (found.catalogue && found.catalogue->series.empty()) {
     tell(words(say("no-image-series-in-this-folder", found.catalogue->skipped.size())), true);
+    emit not_coming();
   } else if (const auto only = found.only()) {
     bring(*only);
   } else {
@@ -165,7 +167,9 @@ void ScanModel::bring(std::size_t series) {
         set_coming(coming::Choosing{list});
         if (volume && (!may_leave() || run != find_)) return;
         if (volume) begin_showing(of, volume);
-        if (!error.empty()) tell(text(error), true);
+        if (error.empty()) return;
+        tell(text(error), true);
+        emit not_coming();
       });
 }
 
@@ -177,6 +181,7 @@ void ScanModel::cancel() {
   const bool far = fetching && fetching->from_server;
   give_up_fetching(far ? words(say("scan-is-on-the-server")) : words(say("cancelled")));
   tell(words(say("cancelled")));
+  emit not_coming();
   if (far) emit out_of_reach(words(say("scan-is-on-the-server")));
 }
 

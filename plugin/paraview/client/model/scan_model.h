@@ -83,6 +83,8 @@ class ScanModel : public QObject {
   /// found() has changed.
   void listed();
   void told(const QString& message, bool problem);
+  /// The scan that was asked for cannot be read, or is not wanted any more.
+  void not_coming();
   /// The contents of the views are about to be removed.
   void leaving();
   /// A server's scan is in the views, or about to be, and cannot be felt: not yet if `why` is empty, otherwise for the

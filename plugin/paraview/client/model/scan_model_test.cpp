@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/model/testing/scan_rig.h"
@@ -98,6 +100,33 @@ TEST_F(ScanModelFollowed, TheScanBeforeIsFeltUntilAnotherIsInTheViews) {
   EXPECT_TRUE(model.message().problem);
   EXPECT_FALSE(model.on_its_way());
   EXPECT_EQ(take_reported(), QStringList());
+}
+
+TEST_F(ScanModelFollowed, AScanThatDoesNotComeIsTold) {
+  std::size_t told = 0;
+  QObject::connect(&model, &ScanModel::not_coming, &model, [&told] { ++told; });
+  const auto found_nothing = [this] { world.found_.back()({}, "there is no such folder"); };
+  const auto found_no_series = [this] { world.found_.back()(folder("/2", {}), {}); };
+  const auto found_one = [this] { world.found_.back()(folder("/2", {series("2", "A", 1)}), {}); };
+  const auto read_nothing = [this, found_one] {
+    found_one();
+    world.loaded_.back()({}, "a file is missing");
+  };
+  show("1");
+  const std::vector<std::function<void()>> ends{found_nothing, found_no_series, read_nothing,
+                                                [this] { model.cancel(); }};
+  for (std::size_t n = 0; n < ends.size(); ++n) {
+    model.open("/2");
+    EXPECT_EQ(told, n) << "it may still come";
+    ends[n]();
+    EXPECT_EQ(told, n + 1);
+  }
+  model.open("/2");
+  found_one();
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  EXPECT_EQ(model.shown()->of.name, "2");
+  EXPECT_EQ(told, ends.size());
 }
 
 TEST_F(ScanModelFollowed, NoPatientStaysBesideAnothersName) {

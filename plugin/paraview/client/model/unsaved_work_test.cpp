@@ -166,6 +166,8 @@ TEST_F(Unsaving, WhatTheUserLetGoIsNotAskedAboutAgain) {
   unsaved.let_scene_go();
   EXPECT_FALSE(unsaved.of_scan().any());
   EXPECT_TRUE(unsaved.of_program().scene) << "it is still here, and the program may end before another scan comes";
+  unsaved.keep_scene();
+  EXPECT_TRUE(unsaved.of_scan().scene) << "the other scan did not come";
   unsaved.let_all_go();
   EXPECT_FALSE(unsaved.of_program().any());
   set_strength(0.6);

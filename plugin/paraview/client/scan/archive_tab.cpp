@@ -176,7 +176,7 @@ void ArchiveTab::fetch() {
     return;
   }
   tell({});
-  offer_->hide();
+  offer({});
   emit fetch_began();
   progress_->setRange(0, 0);
   progress_->setFormat(tr("Waiting for %1").arg(QString::fromStdString(asked->name)));
@@ -223,7 +223,7 @@ void ArchiveTab::take(const io::Fetched& fetched, const std::filesystem::path& f
 
 void ArchiveTab::offer(const QString& folder) {
   offered_ = folder;
-  offer_->show();
+  offer_->setVisible(!folder.isEmpty());
 }
 
 void ArchiveTab::count_on_disk() {
@@ -240,7 +240,7 @@ void ArchiveTab::count_on_disk() {
 }
 
 void ArchiveTab::empty() {
-  offer_->hide();
+  offer({});
   const auto in_use = in_use_ ? in_use_() : std::vector<std::filesystem::path>();
   counting_.ask(
       [this, in_use](const auto& /*job*/) {

@@ -7,6 +7,8 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include <utility>
+
 #include "plugin/messages/messages.h"
 #include "plugin/paraview/client/scan/archive_items.h"
 #include "plugin/paraview/client/scan/archive_search.h"
@@ -87,8 +89,8 @@ void ArchiveTab::build_fetch() {
   offer_->setToolTip(tr("It was not opened by itself, because you opened another scan while it was fetched."));
   offer_->hide();
   connect(offer_, &QPushButton::clicked, this, [this] {
+    emit offer_taken(std::exchange(offered_, {}));
     offer_->hide();
-    emit offer_taken(offered_);
   });
   layout()->addWidget(offer_);
 

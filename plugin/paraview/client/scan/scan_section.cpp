@@ -105,7 +105,12 @@ void ScanSection::build_tabs() {
   });
   connect(archive_, &ArchiveTab::fetch_began, this, [this] { requests_before_fetch_ = model_.requests(); });
   connect(archive_, &ArchiveTab::fetched, this, [this](const QString& folder) {
-    model_.requests() == requests_before_fetch_ ? open(folder.toStdString()) : archive_->offer(folder);
+    if (model_.requests() == requests_before_fetch_) {
+      open(folder.toStdString());
+    } else {
+      archive_->offer(folder);
+      emit fetch_offered();
+    }
   });
   connect(archive_, &ArchiveTab::offer_taken, this, [this](const QString& folder) { open(folder.toStdString()); });
 }
@@ -183,6 +188,10 @@ void ScanSection::open(const std::string& path) {
 
 void ScanSection::show_archive() {
   tabs_->setCurrentIndex(1);
+}
+
+bool ScanSection::offers_fetched() const {
+  return archive_->offers();
 }
 
 void ScanSection::ask_copy() {

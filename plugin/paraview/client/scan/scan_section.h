@@ -34,6 +34,8 @@ class ScanSection : public QWidget {
   void open_later(const QString& path);
   /// Shows the tab of archives.
   void show_archive();
+  /// Whether another scan was fetched, which the user has not opened yet.
+  bool offers_fetched() const;
   /// Lets the user choose a folder, and opens it.
   void ask_folder();
   /// Lets the user choose a file with whole scans, and opens it.
@@ -42,6 +44,8 @@ class ScanSection : public QWidget {
   QWidget& notes() { return *notes_; }
 
  signals:
+  /// Another scan was fetched, which the user can open here.
+  void fetch_offered();
   void thumbnail_drawn(std::size_t series, const QImage& picture);
   /// Whether positions under the pointer are shown in RAS.
   void ras_wanted(bool on);

@@ -135,8 +135,8 @@ void what_is_fetched_late_is_offered() {
   press();
   save_screen("archive-offered");
   expect(number("palpateForce") > 0.1, "the other scan is felt all the while");
+  expect(offer.isVisible(), "the offer is not hidden in a section that is closed");
   let_go();
-  click("palpateScanSectionFold");
   click("palpateOpenFetched");
   another_scan_is_shown(first);
   expect(offer.isHidden(), "it is open");
