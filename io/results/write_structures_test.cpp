@@ -44,7 +44,7 @@ std::string refusal(const std::function<void()>& work) {
   return "no refusal";
 }
 
-TEST(WriteSegmentation, IsReadVoxelForVoxelOnEveryGrid) {
+TEST(ReadBack, VoxelForVoxelOnEveryGrid) {
   testing::for_written(testing::scan_kinds(), [](const testing::WrittenShape& written, const Structure& read) {
     EXPECT_EQ(read.name, full_label().name);
     EXPECT_EQ(read.color, full_label().color);
@@ -154,7 +154,7 @@ TEST(WriteSegmentation, KeepsEveryCode) {
   }
 }
 
-TEST(WriteContours, AreReadWhereTheShapeIsOnEveryGrid) {
+TEST(ReadBack, ContoursWhereTheShapeIsOnEveryGrid) {
   for (const ScanKind& kind : testing::scan_kinds()) {
     const TestFolder folder;
     const Series scan = testing::write_scan(kind, folder / "scan");

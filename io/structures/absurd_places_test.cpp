@@ -148,7 +148,7 @@ TEST(AbsurdPlaces, OfRegistrationsAreRefusedInWords) {
 }
 
 // Truth: the box and the square themselves, and that a shift changes no distance.
-TEST(AbsurdPlaces, WithinTheBoundChangeNothing) {
+TEST(PlacesWithinTheBound, ChangeNothing) {
   for (const char* const number : reachable_numbers) {
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 shift(0);

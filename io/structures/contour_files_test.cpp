@@ -166,7 +166,7 @@ TEST(ContourFiles, AnExclusiveOrTakesAwayWhatTwoHold) {
 }
 
 // A plane alone is as thick as the scan's voxels, whether it is drawn or read, and wherever it lies between two slices.
-TEST(ContourFiles, APlaneAloneIsTheSameReadAndDrawn) {
+TEST(PlanesAlone, AreTheSameReadAndDrawn) {
   for (const double slices_mm : {0.3, 1.0, 5.0}) {
     for (const double height : {0.0, 0.35, -0.1}) {
       Geometry scan;

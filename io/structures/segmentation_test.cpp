@@ -95,7 +95,7 @@ TEST(Segmentations, OfFractionsHaveTheirEdgeAtHalf) {
 }
 
 // Nothing up to column 4, 60 of 200 in column 5, all of what follows: the edge lies within column 5.
-TEST(Segmentations, OfFractionsAreFeltWhereTheirFractionsSay) {
+TEST(FractionsFelt, AreWhereTheirFractionsSay) {
   const auto step = [](int i, int) { return i < 5 ? 0 : (i == 5 ? 60 : 200); };
   const auto edge_of = [&](const char* type) {
     const TestFolder folder;

@@ -62,7 +62,7 @@ stage_shared() {
   run_ctest release -R '^shared\.'
 }
 # What computes for long and reads no bytes is left to the release build.
-numeric='device\.(EachDevice|RandomFaults)'
+numeric='(device\.(EachDevice|RandomFaults)|io\.(FractionsFelt|PlacesWithinTheBound|PlanesAlone)|results\.(ReadBack|UnevenSlices))'
 stage_asan() {
   configure_and_build asan && LSAN_OPTIONS="suppressions=$PWD/.ci/leaks:print_suppressions=0" run_ctest asan -E "^(shared|arrows)|^($numeric)"
 }
