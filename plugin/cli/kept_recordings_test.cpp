@@ -53,8 +53,8 @@ TEST(KeptRecordings, WhereNoPictureCanBeWrittenTheRecordingIsWhole) {
   for (const char* const name : {"summary.txt", "slice.png", "force-time.png"}) {
     const fs::path out = fresh_path("no_picture"), taken = out / name;
     const Outcome outcome =
-        run_command("{ " + probe_to(out, "--clock --seconds 0.5") + " & until [ -d " + out.string() +
-                    " ]; do sleep 0.01; done; mkdir " + taken.string() + "; wait $!; } 2>&1");
+        run_command("{ " + probe_to(out, "--clock --seconds 3") + " & until [ -d " + out.string() +
+                    " ] || ! kill -0 $!; do sleep 0.01; done; mkdir " + taken.string() + "; wait $!; } 2>&1");
     EXPECT_EQ(outcome.exit, 1) << name << ": " << outcome.output;
     const fs::path file = out / "recording.h5";
     EXPECT_THAT(outcome.output, HasSubstr("palpate: the recording is kept: " + file.string() + "\n"));
@@ -79,7 +79,7 @@ TEST(KeptRecordings, ASignalLeavesAFolderWithAWholeRecordingOrNothing) {
 TEST(KeptRecordings, ASignalWhilePicturesAreDrawnLeavesThemAll) {
   const fs::path out = fresh_path("signal_late"), file = out / "recording.h5";
   const Outcome outcome = run_command("{ " + probe_to(out) + " & until [ -f " + file.string() +
-                                      " ]; do sleep 0.002; done; kill -HUP $!; wait $!; } 2>&1");
+                                      " ] || ! kill -0 $!; do sleep 0.002; done; kill -HUP $!; wait $!; } 2>&1");
   EXPECT_EQ(outcome.exit, 0) << outcome.output;
   EXPECT_TRUE(read_recording(file).complete);
   EXPECT_TRUE(fs::exists(out / "tick-time.png")) << "the last one";
@@ -95,7 +95,7 @@ TEST(KeptRecordings, AClosedPipeEndsNoSession) {
     ASSERT_TRUE(fs::exists(file)) << command;
     const Recording recording = read_recording(file);
     EXPECT_TRUE(recording.complete) << command;
-    EXPECT_GT(recording.ticks.size(), 500U) << command;
+    EXPECT_GE(recording.ticks.back().time_s, 0.9) << command;
   }
 }
 

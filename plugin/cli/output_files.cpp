@@ -14,7 +14,9 @@ namespace fs = std::filesystem;
 /// Whether both are one file. Files that are not there yet are compared by their paths.
 bool is_one_file(const fs::path& a, const fs::path& b) {
   std::error_code absent;
-  return fs::equivalent(a, b, absent) || fs::weakly_canonical(a, absent) == fs::weakly_canonical(b, absent);
+  if (fs::equivalent(a, b, absent)) return true;
+  const fs::path whole = fs::weakly_canonical(a, absent);
+  return !whole.empty() && whole == fs::weakly_canonical(b, absent);
 }
 
 }  // namespace

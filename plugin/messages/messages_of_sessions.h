@@ -59,7 +59,7 @@ inline constexpr MessageRow sessions[] = {
      {{"goes-on-unrecorded", "palpate: {}. The session goes on unrecorded."},
       {"less-than-mib-are-left-on", "less than {} MiB are left on the disk of {}"},
       {"what-was-written-before", "{}; what was written before is in {}"}}},
-    {"the session ended well; what is made of its recording could not be written",
+    {"the session has ended, but not all that is made of its recording could be written",
      "make room; the recording can be read, marked and replayed",
      {{"recording-is-kept", "palpate: the recording is kept: {}"}}},
     {"what a command writes must not replace what it reads, or a picture of something else",

@@ -187,7 +187,8 @@ std::size_t Server::wanted(Client& client, const Header& header) {
   if (most == 0) return 0;
   if (controls_ == 0) controls_ = client.id();
   if (controls_ == client.id()) {
-    const std::size_t held = *bytes_;
+    const auto older = find_request(type, header.device);  // makes way for this one
+    const std::size_t held = *bytes_ - (older == requests_.end() ? 0 : older->message.content.size());
     // What is too large by itself is refused for its size.
     if (header.body_size > most || held == 0 || held + header.body_size <= most_bytes_) return most;
     refuse(client, Status::Code::overflow, say("igtl-too-much-waits", type, header.device, header.body_size, held));
@@ -208,11 +209,14 @@ void Server::take_message(Client& client, Message&& message) {
   }
 }
 
+auto Server::find_request(const std::string& type, const std::string& device) -> std::vector<Request>::iterator {
+  return std::ranges::find_if(
+      requests_, [&](const Request& one) { return one.message.type == type && one.message.device == device; });
+}
+
 void Server::keep_request(Client& client, Message&& message) {
   ++counts_.taken;
-  const auto same = std::ranges::find_if(requests_, [&](const Request& one) {
-    return one.message.type == message.type && one.message.device == message.device;
-  });
+  const auto same = find_request(message.type, message.device);
   if (same != requests_.end()) {
     requests_.erase(same);
     ++counts_.outrun;

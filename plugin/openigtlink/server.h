@@ -67,6 +67,7 @@ class Server {
   void serve(Client& client, short events);
   void take_message(Client& client, Message&& message);
   void answer_query(Client& client, const Message& message);
+  std::vector<Request>::iterator find_request(const std::string& type, const std::string& device);
   void keep_request(Client& client, Message&& message);
   std::size_t wanted(Client& client, const Header& header);
   void refuse(Client& client, Status::Code code, const Text& why);

@@ -167,9 +167,14 @@ TEST(OpenIgtServer, RequestsTakeNoMoreMemoryThanTheirLimit) {
   taken.erase(taken.begin());
   send("fifth", 6000);
   EXPECT_EQ(requests_of(stepped.server, 3).size(), 1U);
+  send("fifth again", 5000);
+  send("fifth again", 6000);
+  taken = requests_of(stepped.server, 5);
+  ASSERT_EQ(taken.size(), 1U) << "the newer one of a name takes the place of the older";
+  EXPECT_EQ(taken.front().message.content.size(), 6000U);
   taken.clear();
   send("a large one", 20'000);
-  const auto alone = requests_of(stepped.server, 4);
+  const auto alone = requests_of(stepped.server, 6);
   ASSERT_EQ(alone.size(), 1U) << "alone it is taken";
   EXPECT_EQ(alone.front().message.content.size(), 20'000U);
 }

@@ -26,6 +26,12 @@ bool is_hash(const std::string& file) {
          std::all_of(file.begin(), file.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
 }
 
+/// ".2" is one.
+bool is_number(const std::string& extension) {
+  return extension.size() > 1 &&
+         std::all_of(extension.begin() + 1, extension.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 std::string read_and_hash(const std::filesystem::path& file) {
   std::string unknown(digits, '0');
   std::ifstream input(file, std::ios::binary);
@@ -46,7 +52,13 @@ std::map<std::filesystem::path, std::filesystem::path> fetched;
 
 std::filesystem::path structures_beside(const std::filesystem::path& recording) {
   std::filesystem::path file = recording;
-  if (file.extension() == ".partial") file.replace_extension();
+  if (file.extension() == ".partial") {
+    file.replace_extension();
+    // A second one is NAME.2.partial.
+    if (!std::filesystem::exists(file.string() + ".structures") && is_number(file.extension().string())) {
+      file.replace_extension();
+    }
+  }
   return file.string() + ".structures";
 }
 

@@ -16,7 +16,7 @@ namespace palpate::plugin {
 std::string hash_of_file(const std::filesystem::path& file);
 
 /// The folder beside a recording with the structures that were felt and have no file of their own: label maps that came
-/// over the network. "a.h5.structures" for a.h5 and for a.h5.partial.
+/// over the network. "a.h5.structures" for a.h5, a.h5.partial and a.h5.2.partial.
 std::filesystem::path structures_beside(const std::filesystem::path& recording);
 
 /// Sets the local copies of a server's files, by their names on the server, which scenes use. From any thread. Replaces

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "modes/scene/scene_json.h"
 #include "plugin/session/prepared_scene.h"
@@ -104,6 +105,21 @@ TEST(StructureFiles, OfAServerAreNamedAsThere) {
   set_fetched_files({});
   EXPECT_NE(said.find("rt.dcm"), std::string::npos) << said;
   EXPECT_EQ(said.find("copy"), std::string::npos) << said;
+}
+
+/// Beside the recording, also where its session was cut off, and where that happened twice.
+TEST(StructureFiles, LieBesideTheirRecording) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "beside_recordings";
+  fs::remove_all(folder);
+  for (const char* const name : {"a.h5", "run.2", "a", "a.b.h5"}) {
+    const fs::path maps = folder / (std::string(name) + ".structures");
+    fs::create_directories(maps);
+    for (const char* const cut_off : {"", ".partial", ".2.partial", ".17.partial"}) {
+      EXPECT_EQ(structures_beside(folder / (std::string(name) + cut_off)), maps) << name << cut_off;
+    }
+    fs::remove_all(maps);
+    EXPECT_EQ(structures_beside(folder / name), maps) << "where they are to be";
+  }
 }
 
 // A scene that names a file of a server is felt from its copy, and recorded by what is in it.

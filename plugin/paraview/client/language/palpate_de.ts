@@ -103,8 +103,8 @@
         <translation>Geholtes öffnen</translation>
     </message>
     <message>
-        <source>It was not opened by itself, because you opened another scan while it was fetched.</source>
-        <translation>Es wurde nicht von selbst geöffnet, weil Sie inzwischen eine andere Aufnahme geöffnet haben.</translation>
+        <source>It was fetched, but it is not open: you chose another scan meanwhile, or kept the one before.</source>
+        <translation>Es ist geholt, aber nicht geöffnet: Sie haben inzwischen eine andere Aufnahme gewählt oder die vorige behalten.</translation>
     </message>
     <message>
         <source>Fetches the selected series, or the whole study. A double click does the same.</source>

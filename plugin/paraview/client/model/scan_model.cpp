@@ -76,7 +76,10 @@ void ScanModel::set_in_views(in_views::State next) {
 
 void ScanModel::open(const std::string& path) {
   ++requests_;
-  if (!may_leave()) return;
+  if (!may_leave()) {
+    emit not_coming();
+    return;
+  }
   world_.stop();
   give_up_fetching(words(say("cancelled")));
   tell({});
@@ -113,6 +116,7 @@ void ScanModel::list(const FoundList& found, const std::string& error) {
     if (run != find_) return;  // events were handled while it was asked
     if (!may) {
       set_coming(coming::Nothing{});
+      emit not_coming();
       return;
     }
     close();
@@ -165,10 +169,12 @@ void ScanModel::bring(std::size_t series) {
       [this, run, list, of](const auto& volume, const std::string& error) {
         if (run != find_) return;
         set_coming(coming::Choosing{list});
-        if (volume && (!may_leave() || run != find_)) return;
-        if (volume) begin_showing(of, volume);
-        if (error.empty()) return;
-        tell(text(error), true);
+        if (volume) {
+          const bool may = may_leave();
+          if (run != find_) return;
+          if (may) return begin_showing(of, volume);
+        }
+        if (!error.empty()) tell(text(error), true);
         emit not_coming();
       });
 }
@@ -182,7 +188,6 @@ void ScanModel::cancel() {
   give_up_fetching(far ? words(say("scan-is-on-the-server")) : words(say("cancelled")));
   tell(words(say("cancelled")));
   emit not_coming();
-  if (far) emit out_of_reach(words(say("scan-is-on-the-server")));
 }
 
 }  // namespace palpate::plugin

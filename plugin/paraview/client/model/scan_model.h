@@ -83,12 +83,12 @@ class ScanModel : public QObject {
   /// found() has changed.
   void listed();
   void told(const QString& message, bool problem);
-  /// The scan that was asked for cannot be read, or is not wanted any more.
+  /// The scan that was asked for cannot be read, or is no longer wanted.
   void not_coming();
   /// The contents of the views are about to be removed.
   void leaving();
-  /// A server's scan is in the views, or about to be, and cannot be felt: not yet if `why` is empty, otherwise for the
-  /// reason `why`. Also emitted when the scan was closed.
+  /// The scan in the views, or about to be there, cannot be felt: not yet if `why` is empty, otherwise for the reason
+  /// `why`. Also emitted when the scan was closed.
   void out_of_reach(const QString& why);
   /// Another scan is in the views, and can be felt.
   void scan_shown(const palpate::plugin::ScanHandle& handle, palpate::plugin::Brought brought);

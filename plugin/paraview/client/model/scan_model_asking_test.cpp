@@ -99,13 +99,15 @@ TEST_F(ScanModelFollowed, WhatIsOvertakenIsStopped) {
 
 TEST_F(ScanModelFollowed, NothingLeavesWhereTheUserDoesNotWantIt) {
   show("1");
-  int asked = 0;
+  int asked = 0, not_coming = 0;
   bool may = false;
   model.set_may_leave([&] {
     ++asked;
     return may;
   });
+  QObject::connect(&model, &ScanModel::not_coming, &model, [&not_coming] { ++not_coming; });
   model.open("/2");
+  EXPECT_EQ(not_coming, 1);
   EXPECT_THAT(world.take_asked(), IsEmpty());
   EXPECT_TRUE(take_reported().isEmpty());
   EXPECT_EQ(model.shown()->of.name, "1");
@@ -114,6 +116,7 @@ TEST_F(ScanModelFollowed, NothingLeavesWhereTheUserDoesNotWantIt) {
   may = false;  // what was edited while the folder was looked through
   world.found_.back()(folder("/2", {series("2", "B", 1)}), {});
   EXPECT_EQ(asked, 3);
+  EXPECT_EQ(not_coming, 2);
   EXPECT_EQ(model.shown()->of.name, "1") << "nor is it closed for another patient's";
   EXPECT_EQ(model.found(), nullptr);
   may = true;
@@ -128,6 +131,7 @@ TEST_F(ScanModelFollowed, NothingLeavesWhereTheUserDoesNotWantIt) {
   may = false;  // while it was read
   world.loaded_.back()(voxels(), {});
   EXPECT_THAT(world.take_asked(), ElementsAre("load 3"));
+  EXPECT_EQ(not_coming, 3);
   EXPECT_EQ(model.shown()->of.name, "1");
   ASSERT_NE(model.found(), nullptr) << "it can be chosen again";
   EXPECT_FALSE(model.on_its_way());

@@ -15,6 +15,7 @@
 namespace palpate::plugin {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -211,6 +212,46 @@ TEST_F(ScanModelFollowed, WhatCannotBeFetchedIsSaidToBeOutOfReach) {
   world.fetched_.back()({.said = QStringLiteral("the folder is gone")});
   EXPECT_EQ(take_reported().back(), QStringLiteral("out of reach the folder is gone"));
   EXPECT_EQ(model.why_not_felt(), QStringLiteral("the folder is gone"));
+}
+
+/// The session waits for a scan that was announced: it is told in each case that the scan does not come.
+TEST_F(ScanModelFollowed, WhatWasBeingFetchedIsSaidToBeOutOfReachHoweverItEnds) {
+  const std::vector<std::pair<std::string, std::function<void()>>> ends{
+      {"it is cancelled", [this] { model.cancel(); }},
+      {"another folder is opened", [this] { model.open("/2"); }},
+      {"it cannot be read", [this] { world.fetched_.back()({.said = QStringLiteral("the folder is gone")}); }},
+      {"its reader is deleted", [this] { model.lose(); }},
+      {"its reader is deleted as it comes",
+       [this] {
+         world.view = {};
+         world.fetched_.back()({.volume = voxels(), .of = *model.seen()});
+       }},
+      {"it is not taken over",
+       [this] {
+         world.not_adopted = "the views are gone";
+         world.fetched_.back()({.volume = voxels(), .of = *model.seen()});
+       }},
+  };
+  for (const bool remote : {false, true}) {
+    for (const Brought brought : {Brought::by_state, Brought::by_undo}) {
+      for (const auto& [what, end] : ends) {
+        if (what == "its reader is deleted as it comes" && !remote) continue;  // there it is taken over
+        if (what == "it is not taken over" && remote) continue;                // there it was taken over before
+        SCOPED_TRACE(what + (remote ? ", of a server" : ""));
+        show("1");
+        const SeriesRef of = model.shown()->of;
+        world.remote = remote;
+        model.restore(of, brought);
+        take_reported();
+        end();
+        EXPECT_EQ(model.shown(), nullptr);
+        EXPECT_FALSE(model.why_not_felt().isEmpty());
+        EXPECT_THAT(take_reported(), Contains(QStringLiteral("out of reach ") + model.why_not_felt()));
+        world.remote = false;
+        world.not_adopted.clear();
+      }
+    }
+  }
 }
 
 TEST_F(ScanModelFollowed, WhatUndoBringsBackIsFeltAgain) {

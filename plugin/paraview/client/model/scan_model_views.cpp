@@ -99,6 +99,7 @@ void ScanModel::take_fetched(const ScanWorld::Fetch& answer) {
       said = QString::fromUtf8(error.what());
       set_in_views(in_views::OutOfReach{fetching.of, said});
       tell(said, true);
+      emit out_of_reach(said);
       return;
     }
   }
@@ -114,12 +115,13 @@ void ScanModel::take_fetched(const ScanWorld::Fetch& answer) {
   take(handle_of(answer.of, answer.volume, answer.frame, answer.frames), fetching.brought);
 }
 
-/// The views and the felt scan stay as they are.
+/// The views stay as they are.
 void ScanModel::give_up_fetching(const QString& why) {
   ++fetch_;
   world_.stop_fetching();
   if (const auto* const fetching = std::get_if<in_views::Fetching>(&in_views_)) {
     set_in_views(in_views::OutOfReach{fetching->of, why});
+    emit out_of_reach(why);
   } else if (auto* const shown = std::get_if<in_views::Shown>(&in_views_); shown && !shown->scan.of.catalogue) {
     shown->coming.reset();
     emit changed();
@@ -149,8 +151,10 @@ void ScanModel::restore(const SeriesRef& of, Brought brought) {
     try {
       world_.adopt();
     } catch (const std::exception& error) {
-      set_in_views(in_views::Lost{of, QString::fromUtf8(error.what())});
-      tell(QString::fromUtf8(error.what()), true);
+      const QString why = QString::fromUtf8(error.what());
+      set_in_views(in_views::Lost{of, why});
+      tell(why, true);
+      emit out_of_reach(why);
       return;
     }
     note(of, nullptr);
@@ -164,11 +168,13 @@ void ScanModel::lose() {
   if (!seen()) return;
   const SeriesRef of = *seen();
   const bool half = std::holds_alternative<in_views::Showing>(in_views_);
+  const bool without_voxels = std::holds_alternative<in_views::Fetching>(in_views_);
   const QString why = words(say("scan-left-the-pipeline"));
   leave();
   ++views_;
   set_in_views(in_views::Lost{of, why});
   if (half) world_.close();
+  if (without_voxels) emit out_of_reach(why);
   half ? tell(why, true) : tell({});  // what was said of it goes with it
 }
 

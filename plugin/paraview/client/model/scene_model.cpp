@@ -167,6 +167,7 @@ QString SceneModel::take(const modes::Scene& scene, Pace pace) {
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
   }
+  mode_ids_.follow(scene_, scene);
   scene_ = scene;
   edited_ = true;
   emit changed(pace);
@@ -194,7 +195,7 @@ void SceneModel::edit(const QString& what, const Change& change, const Told& tol
 
 void SceneModel::edit_mode(const QString& what, std::size_t mode, std::function<void(modes::Mode&)> change,
                            const Told& told) {
-  const auto of_scene = [shown = ShownMode(scene_, mode), change = std::move(change)](modes::Scene& scene) {
+  const auto of_scene = [shown = ShownMode(*this, mode), change = std::move(change)](modes::Scene& scene) {
     change(scene.modes[shown.in(scene)]);
   };
   edit(what, of_scene, told);

@@ -16,6 +16,7 @@
 #include "modes/scene/scene.h"
 #include "plugin/app/live_session.h"
 #include "plugin/paraview/client/model/kept_text.h"
+#include "plugin/paraview/client/model/mode_ids.h"
 
 namespace palpate::plugin {
 
@@ -58,6 +59,7 @@ class SceneModel : public QObject {
   void put_back();
 
   const modes::Scene& scene() const { return scene_; }
+  const ModeIds& mode_ids() const { return mode_ids_; }
   /// The scene as last opened or proposed, without later edits.
   const modes::Scene& opened() const { return opened_; }
   /// The scene in the pipeline, and so in a state file; none if it keeps none, or an invalid one.
@@ -126,6 +128,7 @@ class SceneModel : public QObject {
   Read read_;
   std::function<bool(modes::Scene&)> clean_;
   modes::Scene scene_, opened_;
+  ModeIds mode_ids_;  // of scene_
   std::string text_;  // of the scene, as in the pipeline
   bool edited_ = false;
   std::optional<Step> reading_;  // its files are being read

@@ -110,7 +110,7 @@ TEST_F(SceneModelReading, AChangeOfABoundaryIsOfTheOneThatWasShown) {
   const auto remove = [this](std::size_t n) {
     model.edit(
         QStringLiteral("Remove"),
-        [shown = ShownMode(model.scene(), n)](modes::Scene& now) {
+        [shown = ShownMode(model, n)](modes::Scene& now) {
           now.modes.erase(now.modes.begin() + static_cast<std::ptrdiff_t>(shown.in(now)));
         },
         [this](const QString& why) { told.push_back(why.toStdString()); });

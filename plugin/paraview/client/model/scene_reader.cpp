@@ -3,12 +3,15 @@
 #include <exception>
 #include <utility>
 
+#include "modes/scene/scene_json.h"
+
 namespace palpate::plugin {
 
 bool SceneReader::read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan,
                        std::function<void(const QString& error)> done) {
   if (!scan) return false;
-  if (std::exchange(was_read_, false) && held_of_.lock() == scan) return false;
+  std::string text = modes::to_json(scene);
+  if (std::exchange(just_read_, {}) == text && held_of_.lock() == scan) return false;
   try {
     if (live_.has_read(scene, scan)) return false;
   } catch (const std::exception&) {
@@ -16,15 +19,16 @@ bool SceneReader::read(const modes::Scene& scene, const std::shared_ptr<const io
   }
   if (held_of_.lock() != scan) held_.clear();
   held_of_ = scan;
-  job_.ask(live_.reading(scene, scan), [this, done = std::move(done)](const auto& read, const QString& error) {
+  const auto finish = [this, text = std::move(text), done = std::move(done)](const auto& read, const QString& error) {
     if (read) {
       held_.insert(held_.end(), read->structures.begin(), read->structures.end());
       live_.offer(PreparedScene(*read));
     }
-    was_read_ = read != nullptr;
+    just_read_ = read ? text : std::string();
     done(error);
-    was_read_ = false;
-  });
+    just_read_.clear();
+  };
+  job_.ask(live_.reading(scene, scan), finish);
   return true;
 }
 

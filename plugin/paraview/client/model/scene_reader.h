@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "plugin/app/live_session.h"
@@ -20,7 +21,7 @@ class SceneReader {
 
   /// Reads what the scene needs on a scan, offers it to the session, and calls `done` once, with an error if it cannot
   /// be read. False: there is nothing to wait for. A scene is not read twice on the same scan: the caller calls again
-  /// in `done`. A newer scene replaces the one being read.
+  /// in `done`, perhaps with another scene. A newer scene replaces the one being read.
   bool read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan,
             std::function<void(const QString& error)> done);
   /// Cancels the reading. Returns whether there was any.
@@ -30,7 +31,7 @@ class SceneReader {
   LiveSession& live_;
   std::vector<LoadedStructure> held_;
   std::weak_ptr<const io::Volume> held_of_;
-  bool was_read_ = false;  // for the next call of read()
+  std::string just_read_;  // the scene, while its `done` runs
   Job job_;
 };
 

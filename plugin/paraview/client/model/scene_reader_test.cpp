@@ -250,6 +250,28 @@ TEST_F(SceneReading, AFrameIsFilteredInTheBackground) {
   EXPECT_EQ(changes, 2);
 }
 
+/// Another scene is chosen while the scan is prepared for the one before: it is prepared for that, too.
+TEST_F(SceneReading, AScanIsReadForTheSceneThatItMeets) {
+  modes::Scene scene = model.scene();
+  int read = 0;
+  QObject::connect(&session, &SessionController::connection_changed, [&] { read += session.expects_scan() ? 1 : 0; });
+  for (const char* const filter : {"gaussian", "median"}) {
+    session.expect_scan();
+    scene.filter.type = io::find_filter_type(filter);
+    model.open(scene);
+    read = 0;
+    const auto scan = testing::registered_scan();
+    session.set_scan(scan, {});
+    model.edit(QStringLiteral("Keep out"), keeping_out(2));
+    model.edit(QStringLiteral("Filter"),
+               [](modes::Scene& now) { now.filter.type = io::find_filter_type("bilateral"); });
+    ASSERT_TRUE(comes([&] { return session.live().scan() == scan; }));
+    EXPECT_EQ(read, 2) << "it was read while the panel stood still";
+    EXPECT_EQ(io::filter_of(*session.live().felt_scan()), model.scene().filter);
+    EXPECT_EQ(session.live().felt().structures.size(), 1U);
+  }
+}
+
 /// A state whose scan cannot be fetched: its scene is not waited for.
 TEST_F(SceneReading, AScanThatDoesNotComeIsNoLongerExpected) {
   session.expect_scan();

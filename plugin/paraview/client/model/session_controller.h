@@ -69,8 +69,9 @@ class SessionController : public QObject {
   ~SessionController() override;
 
   /// Another scan, or another frame of it, with the model's scene. The force is ramped across the change. For a scan
-  /// announced by expect_scan(), slow parts (structures of the scene, its filter) are prepared in the background; until
-  /// they are ready, expects_scan() is true, there is no force, and the previous scan stays.
+  /// announced by expect_scan(), and for one without the scene's filter, slow parts (structures of the scene, its
+  /// filter) are prepared in the background; until they are ready, expects_scan() is true, there is no force, and the
+  /// previous scan stays.
   void set_scan(std::shared_ptr<const io::Volume> volume, const ScanFrame& frame);
   /// Passes on the scan through the filter of a scene that is about to be set.
   void offer(std::shared_ptr<const io::Volume> filtered) { live_.offer(std::move(filtered)); }

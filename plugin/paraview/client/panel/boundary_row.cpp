@@ -63,8 +63,7 @@ BoundaryRow::Shown::Pair BoundaryRow::Shown::in(modes::Scene& scene) const {
 }
 
 BoundaryRow::Shown BoundaryRow::shown() const {
-  const modes::Scene& scene = model_.scene();
-  return {{scene, mode_}, back_ ? std::optional(ShownMode(scene, *back_)) : std::nullopt};
+  return {{model_, mode_}, back_ ? std::optional(ShownMode(model_, *back_)) : std::nullopt};
 }
 
 /// The way back is the same boundary.

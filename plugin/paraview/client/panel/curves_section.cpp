@@ -82,7 +82,7 @@ CurvesSection::CurvesSection(SceneModel& model, SessionController& session, Stro
   const auto connect_editor = [this](CurveEditor* editor, auto put) {
     connect(editor, &CurveEditor::dragged, this, [this, editor, put] {
       if (mode() >= model_.scene().modes.size()) return;
-      model_.drag([shown = ShownMode(model_.scene(), mode()), curve = editor->curve(),
+      model_.drag([shown = ShownMode(model_, mode()), curve = editor->curve(),
                    put](modes::Scene& scene) { put(scene.modes[shown.in(scene)], curve); },
                   [alive = QPointer(this)](const QString& why) {
                     if (alive) show_message(*alive->message_, why, true);

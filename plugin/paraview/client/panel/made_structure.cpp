@@ -93,7 +93,9 @@ MadeStructure make_structure(const WantedStructure& wanted) {
                      .change = {},
                      .edges = {}};
   try {
-    if (!made.measures) made.measures = std::make_shared<const io::StructureMeasures>(io::measure(wanted.structure));
+    if (!made.measures)
+      made.measures = std::make_shared<const io::StructureMeasures>(
+          io::measure(wanted.structure, wanted.scan ? &wanted.scan->geometry : nullptr));
     if (wanted.draws) draw_structure(wanted, made);
   } catch (const std::exception& error) {
     made.error = error.what();

@@ -195,7 +195,7 @@ void ModesSection::remove_mode() {
   if (n >= model_.scene().modes.size()) return;
   model_.edit(
       tr("Remove %1").arg(name_of(model_.scene(), n)),
-      [shown = ShownMode(model_.scene(), n)](modes::Scene& scene) {
+      [shown = ShownMode(model_, n)](modes::Scene& scene) {
         scene.modes.erase(scene.modes.begin() + static_cast<std::ptrdiff_t>(shown.in(scene)));
       },
       told());

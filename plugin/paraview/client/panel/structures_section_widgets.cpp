@@ -13,6 +13,7 @@
 
 #include <algorithm>
 
+#include "plugin/paraview/client/model/shown_mode.h"
 #include "plugin/paraview/client/panel/correct_box.h"
 #include "plugin/paraview/client/panel/outline_out.h"
 #include "plugin/paraview/client/panel/structures_section.h"
@@ -21,6 +22,7 @@
 #include "plugin/paraview/client/widgets/row_list.h"
 #include "plugin/paraview/client/widgets/tool_button.h"
 #include "plugin/paraview/client/words/mode_words.h"
+#include "plugin/structures/drawn_structure.h"
 #include "plugin/structures/study_structures.h"
 
 // The section's widgets, from top to bottom, with the actions of its buttons, menus and dialogs.
@@ -125,13 +127,14 @@ void StructuresSection::fill_gates(QMenu& menu) {
   menu.clear();
   const modes::Scene& scene = model_.scene();
   for (std::size_t n = 0; n < scene.modes.size(); ++n) {
-    connect(menu.addAction(name_of(scene, n)), &QAction::triggered, this, [this, n] {
-      if (!chosen()) return;
-      use(tr("%1 only inside %2").arg(name_of(model_.scene(), n), widget_text(chosen()->structure.name)),
-          [n, structure = chosen()->structure](modes::Scene& changed) {
-            if (n < changed.modes.size()) add_gate_of(changed, n, structure);
-          });
-    });
+    connect(menu.addAction(name_of(scene, n)), &QAction::triggered, this,
+            [this, name = name_of(scene, n), shown = ShownMode(model_, n)] {
+              if (!chosen()) return;
+              use(tr("%1 only inside %2").arg(name, widget_text(chosen()->structure.name)),
+                  [shown, structure = chosen()->structure](modes::Scene& changed) {
+                    add_gate_of(changed, shown.in(changed), structure);
+                  });
+            });
   }
 }
 
@@ -166,9 +169,8 @@ void StructuresSection::choose_color(std::size_t n) {
 
 /// Of another scan, perhaps, when the color comes: then it is in vain.
 void StructuresSection::give_color(const io::Structure& structure, const QString& color) {
-  const auto entry = std::ranges::find_if(entries_, [&](const Entry& one) {
-    return one.structure.file == structure.file && one.structure.number == structure.number;
-  });
+  const auto entry =
+      std::ranges::find_if(entries_, [&](const Entry& one) { return is_same(one.structure, structure); });
   if (entry == entries_.end()) return;
   entry->color = entry->structure.color = color.toStdString();
   const auto in_scene = [structure](const modes::SceneStructure& named) { return is_same(named, structure); };

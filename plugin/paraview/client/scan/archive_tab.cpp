@@ -176,7 +176,6 @@ void ArchiveTab::fetch() {
     return;
   }
   tell({});
-  offer({});
   emit fetch_began();
   progress_->setRange(0, 0);
   progress_->setFormat(tr("Waiting for %1").arg(QString::fromStdString(asked->name)));

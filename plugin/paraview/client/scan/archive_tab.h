@@ -44,7 +44,7 @@ class ArchiveTab : public QWidget {
   /// The picture of an opened series, for its line here.
   void set_picture(const QString& series_uid, const QImage& picture);
 
-  /// Does not open what was fetched, but offers it: another scan was asked for meanwhile. Empty: offers nothing.
+  /// Offers what was fetched and is not open. Empty: offers nothing.
   void offer(const QString& folder);
   bool offers() const { return !offered_.isEmpty(); }
 

@@ -86,7 +86,8 @@ void ArchiveTab::build_fetch() {
   static_cast<QVBoxLayout*>(layout())->addLayout(work);
   offer_ = new QPushButton(tr("Open what was fetched"), this);
   offer_->setObjectName(QStringLiteral("palpateOpenFetched"));
-  offer_->setToolTip(tr("It was not opened by itself, because you opened another scan while it was fetched."));
+  offer_->setToolTip(
+      tr("It was fetched, but it is not open: you chose another scan meanwhile, or kept the one before."));
   offer_->hide();
   connect(offer_, &QPushButton::clicked, this, [this] {
     emit offer_taken(std::exchange(offered_, {}));

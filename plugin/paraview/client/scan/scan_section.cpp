@@ -71,6 +71,10 @@ ScanSection::ScanSection(ScanModel& model, QWidget* parent) : QWidget(parent), m
   connect(&model, &ScanModel::changed, this, [this] { refresh(); });
   connect(&model, &ScanModel::told, this,
           [this](const QString& text, bool problem) { show_message(*message_, text, problem); });
+  connect(&model, &ScanModel::not_coming, this, [this] {
+    const bool is_open = model_.seen() && model_.seen()->path == fetched_;
+    if (!fetched_.empty() && !is_open) archive_->offer(QString::fromStdString(fetched_));
+  });
   connect(&model, &ScanModel::listed, this, [this] {
     if (model_.found() && !model_.found()->only()) tabs_->setCurrentIndex(0);
   });
@@ -105,10 +109,11 @@ void ScanSection::build_tabs() {
   });
   connect(archive_, &ArchiveTab::fetch_began, this, [this] { requests_before_fetch_ = model_.requests(); });
   connect(archive_, &ArchiveTab::fetched, this, [this](const QString& folder) {
-    if (model_.requests() == requests_before_fetch_) {
+    const bool opens = model_.requests() == requests_before_fetch_;
+    archive_->offer(opens ? QString() : folder);
+    if (opens) {
       open(folder.toStdString());
     } else {
-      archive_->offer(folder);
       emit fetch_offered();
     }
   });
@@ -182,7 +187,9 @@ void ScanSection::refresh() {
 
 void ScanSection::open(const std::string& path) {
   const QString folder = QString::fromStdString(path);
-  if (!remote_server() && !archive_->has_fetched(path)) remember_folder(folder);  // that one goes with the program
+  const bool is_fetched = archive_->has_fetched(path);
+  fetched_ = is_fetched ? path : std::string();
+  if (!remote_server() && !is_fetched) remember_folder(folder);  // that one goes with the program
   model_.open(path);
 }
 

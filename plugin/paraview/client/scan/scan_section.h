@@ -65,6 +65,7 @@ class ScanSection : public QWidget {
   ScanModel& model_;
   QTabBar* tabs_ = nullptr;
   ArchiveTab* archive_ = nullptr;
+  std::string fetched_;  // from an archive: what was opened last; empty: something else was
   unsigned requests_before_fetch_ = 0;
   QWidget* folder_ = nullptr;
   SeriesList* series_ = nullptr;
