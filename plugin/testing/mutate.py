@@ -294,7 +294,8 @@ class Bench:
                 self.write(path, with_slips(path, by_file.get(path, [])).encode())
             if self.make():
                 break
-            named = set(re.findall(r"((?:solver|io|modes|device|plugin)/[\w./]+):(\d+)", self.log()))
+            # The tree itself may lie in a folder of such a name.
+            named = set(re.findall(r"((?:solver|io|modes|device|plugin)/[\w./]+):(\d+)", self.log().replace(f"{self.tree}/", "")))
             wrong = [mutant for mutant in left if (mutant.path, str(mutant.number)) in named]
             if not wrong:  # an error without a line of a slip: all of the files that it names
                 files = {path for path, _ in named}
