@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,34 @@ TEST(BoundaryNames, of_air_in_a_ct_tell_every_site_where_it_is_met) {
   EXPECT_EQ(name(-1000, -850, {0, 100, 0, 0, 0, 0}), "Airways in the lung");
   EXPECT_EQ(name(-1000, -850, {0, 0, 0, 0, 100, 0}), "Foam or cloth");
   EXPECT_EQ(name(40, 700, {500, 0, 0, 0, 0, 0}), "Bone") << "not of air";
+}
+
+/// Where there is bone, all air of the body is one: a sinus is neither skin nor lung.
+TEST(BoundaryNames, of_bone_at_air_are_the_same_at_every_site_of_the_body) {
+  for (unsigned met = 1; met < 8; ++met) {
+    NamedPair pair{.low = -1000, .high = 700};
+    for (unsigned site = 0; site < 3; ++site) pair.sites[site] = (met >> site & 1U) * (100 + site);
+    EXPECT_EQ(boundary_names(std::array{pair}, {.hounsfield = true, .range = 1000}).front(), "Bone at air") << met;
+  }
+  for (const Site site : {Site::skin, Site::lung, Site::inner_air}) {
+    EXPECT_EQ(name_at("Bone at air and table", site), "Bone at air");
+  }
+}
+
+/// Of one in a thousand edges it is not known whether it is noise; of more it is.
+TEST(BoundaryNames, tell_a_site_of_more_than_a_thousandth_of_the_edges) {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<std::uint64_t> few(1, 50);
+  for (int n = 0; n < 200; ++n) {
+    const std::uint64_t of_air = few(random);
+    // All edges are 1000 times as many, or one fewer.
+    for (const bool is_noise : {true, false}) {
+      const NamedPair pair{.low = -1000, .high = 40, .sites = {999 * of_air - (is_noise ? 0 : 1), 0, of_air}};
+      EXPECT_EQ(boundary_names(std::array{pair}, {.hounsfield = true, .range = 1000}).front(),
+                is_noise ? "Skin" : "Skin and air inside the body")
+          << of_air;
+    }
+  }
 }
 
 TEST(BoundaryNames, are_at_one_site_that_sites) {

@@ -75,6 +75,20 @@ TEST(HeadShape, is_no_other_part_of_the_body) {
   EXPECT_FALSE(is_built_like_a_head(scanned(shells(knee_mm, 6, 8)), bright_from)) << "too small";
 }
 
+/// Rays go from side to side and from front to back, and count alike: so a patient who lies on the side has the same
+/// shell. And the values may be on any scale.
+TEST(HeadShape, is_the_same_for_a_patient_on_the_side_and_in_any_unit) {
+  const auto upright = shells({65, 105, 100}, 6, 8);
+  const Shell shell = shell_of(scanned(upright), bright_from);
+  const auto on_the_side = [&](const Vec3& at) { return upright({at.y, -at.x, at.z}); };
+  const Shell same = shell_of(scanned(on_the_side), bright_from);
+  EXPECT_NEAR(same.share, shell.share, 0.02);
+  EXPECT_NEAR(same.width_mm, shell.width_mm, 1);
+  const Shell brighter = shell_of(scanned([&](const Vec3& at) { return 200 * upright(at); }), 200 * bright_from);
+  EXPECT_EQ(brighter.share, shell.share);
+  EXPECT_EQ(brighter.width_mm, shell.width_mm);
+}
+
 /// A brain without fat, or cut at the skull in part, is still what its header says.
 TEST(HeadShape, may_show_less_of_its_shell_where_the_header_says_that_it_is_one) {
   const auto half = [](const Vec3& at) { return shells(head_mm, at.y < 0 ? 6 : 200, at.y < 0 ? 8 : 0)(at); };

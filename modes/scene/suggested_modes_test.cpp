@@ -55,6 +55,27 @@ TEST(SuggestedModes, HandIsFreeInTheAirAndDragsFromTheSkinOn) {
   }
 }
 
+/// The darkest boundary is felt first, also where it is a small one: a bubble above a floor.
+TEST(SuggestedModes, FrictionIsThatOfTheDarkestBoundaryHoweverSmallItIs) {
+  int small = 0;
+  for (const double radius_mm : {10.0, 15.0}) {
+    const testdata::Phantom phantom{.background = testdata::soft_tissue_hu,
+                                    .bodies = {{testdata::Ball{{0, 0, 6}, radius_mm}, testdata::air_hu},
+                                               {HalfSpace{{0, 0, 1}, -20}, testdata::bone_hu}}};
+    const Suggestion found = suggest(std::make_shared<const io::Volume>(
+        testdata::scan(phantom, testdata::make_geometry({.size = glm::ivec3(48)}), {.noise = 5})));
+    ASSERT_EQ(found.boundaries.size(), 2U) << radius_mm;
+    const auto darkest = std::ranges::min_element(found.boundaries, {}, &FoundBoundary::middle);
+    small += darkest != found.boundaries.begin() ? 1 : 0;  // the largest comes first
+    const auto friction = std::ranges::find(found.scene.modes, "friction", &Mode::type);
+    ASSERT_NE(friction, found.scene.modes.end());
+    const double step = found.typical[darkest->high] - found.typical[darkest->low];
+    EXPECT_NEAR(friction->strength_n.nodes()[0].at, darkest->middle - 0.08 * step, 1) << radius_mm;
+    EXPECT_NEAR(friction->strength_n.nodes()[1].at, darkest->middle + 0.02 * step, 1) << radius_mm;
+  }
+  EXPECT_GT(small, 0);
+}
+
 /// A vessel with contrast medium may be brighter than cancellous bone. Its wall is within soft tissue and as soft.
 TEST(SuggestedModes, WallWithinATissueIsNotAsHardAsBone) {
   int walls = 0;

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <random>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -76,6 +79,32 @@ TEST(TissueHills, of_a_ct_part_nearer_to_what_is_softer_than_bone) {
   const TissueHills other = tissue_hills(counts.edges, {0, 200}, 6, no_smoothing, false);
   EXPECT_EQ(other.hills[0].end, 58U);
   EXPECT_EQ(other.hills[1].end, 143U) << "36.5 from 106";
+}
+
+/// Three tenths of the way where the softer hill's top is between -200 and 150 HU and the other's above 150; else half.
+TEST(TissueHills, of_a_ct_part_at_the_place_that_their_tops_values_say) {
+  std::mt19937_64 random(9);
+  std::uniform_int_distribution<int> bin(3, 96), shift(1, 10);
+  int near_to_soft = 0;
+  for (int n = 0; n < 400; ++n) {
+    // One of the two tops lies within a bin of one of the limits.
+    const double limit = n % 2 == 0 ? -200 : least_bone_hu;
+    const int at_limit = bin(random), other = bin(random);
+    if (std::abs(at_limit - other) < 4) continue;
+    const double low_end = limit - 20 * (at_limit + 0.1 * shift(random) - 0.05);
+    Edges counts({low_end, low_end + 2000, 100});
+    const int low = std::min(at_limit, other), high = std::max(at_limit, other);
+    counts.add(low, high, 100);
+    const TissueHills found = tissue_hills(counts.edges, {0, 100}, 2, 1, true);
+    ASSERT_EQ(found.hills.size(), 2U);
+    const auto top = [&](int of) { return low_end + 20 * (of + 0.5); };
+    const bool is_soft = top(low) > -200 && top(low) < least_bone_hu && top(high) > least_bone_hu;
+    near_to_soft += is_soft ? 1 : 0;
+    // The valley is all bins between the two, and the one of the upper top counts as its end.
+    const auto end = static_cast<int>(found.hills[0].end);
+    EXPECT_NEAR(end - low - 1, (is_soft ? 0.3 : 0.5) * (high - low - 2), 0.5 + 1e-9) << low << ", " << high;
+  }
+  EXPECT_GT(near_to_soft, 50);
 }
 
 TEST(TissueHills, have_the_mean_of_what_lies_near_their_top) {

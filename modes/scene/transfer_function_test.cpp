@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "modes/scene/strength.h"
 #include "modes/scene/strength_table.h"
@@ -179,6 +182,75 @@ TEST(StrengthTable, never_gives_a_force_that_is_not_finite) {
       TransferFunction({{-1e30, 1e30}, {0, 0}, {1e-30, 1e30}, {1e30, 0}}, Interpolation::monotone_cubic)};
   for (const double at : {-1e30, -1e15, -1.0, 1e-31, 5e-31, 1.0, 1e29}) {
     EXPECT_TRUE(std::isfinite(extreme(at))) << at;
+  }
+}
+
+/// A function that is zero in places: between some nodes, before the first or beyond the last.
+TransferFunction zero_in_places(std::mt19937& random) {
+  std::vector<Node> nodes = random_nodes(random);
+  for (Node& node : nodes) node.value *= std::uniform_int_distribution<int>(0, 1)(random);
+  return TransferFunction(nodes, random() % 2 == 0 ? Interpolation::linear : Interpolation::monotone_cubic);
+}
+
+/// Of some of the data, as bits; the first is the lowest.
+TEST(StrengthTable, tells_at_which_data_it_is_not_zero) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> anywhere(-1100, 800);
+  for (int trial = 0; trial < 300; ++trial) {
+    const TransferFunction function = zero_in_places(random);
+    std::vector<double> data(std::uniform_int_distribution<std::size_t>(1, 64)(random));
+    std::uint64_t asked = 0, expected = 0;
+    for (std::size_t n = 0; n < data.size(); ++n) {
+      data[n] = anywhere(random);
+      if (random() % 3 == 0) continue;
+      asked |= std::uint64_t{1} << n;
+      if (function(data[n]) != 0) expected |= std::uint64_t{1} << n;
+    }
+    EXPECT_EQ(StrengthTable(function).not_zero(data, asked), expected) << trial;
+  }
+}
+
+TEST(StrengthTable, multiplies_each_product_and_tells_if_none_is_left) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-1100, 800), factor(0, 2);
+  int none_left = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const TransferFunction function = zero_in_places(random);
+    std::vector<double> data(std::uniform_int_distribution<std::size_t>(1, 12)(random)), products, expected;
+    bool any = false;
+    for (double& datum : data) {
+      datum = trial % 2 == 0 ? anywhere(random) : function.nodes().back().at + 1;  // all of them may be beyond
+      products.push_back(random() % 3 == 0 ? 0 : factor(random));
+      expected.push_back(products.back() * function(datum));
+      any = any || expected.back() != 0;
+    }
+    const bool is_left = StrengthTable(function).multiply(data, products);
+    EXPECT_TRUE(is_left || !any) << trial;
+    none_left += is_left ? 0 : 1;
+    for (std::size_t n = 0; is_left && n < data.size(); ++n) EXPECT_NEAR(products[n], expected[n], 1e-11) << trial;
+  }
+  EXPECT_GT(none_left, 50);
+}
+
+TEST(Strength, is_not_zero_where_no_factor_of_a_datum_is) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> anywhere(-1100, 800);
+  for (int trial = 0; trial < 200; ++trial) {
+    const TransferFunction newtons = zero_in_places(random), gate = zero_in_places(random),
+                           other = zero_in_places(random);
+    const Strength strength(Datum::value, newtons,
+                            {{Datum::gradient_magnitude, other}, {Datum::value, gate}, {Datum::value, gate}});
+    std::vector<double> data;
+    std::uint64_t asked = 0, expected = 0;
+    for (std::size_t n = 0; n < 64; ++n) {
+      data.push_back(anywhere(random));
+      if (random() % 3 == 0) continue;
+      asked |= std::uint64_t{1} << n;
+      if (newtons(data[n]) != 0 && gate(data[n]) != 0) expected |= std::uint64_t{1} << n;
+    }
+    EXPECT_EQ(strength.not_zero(Datum::value, data, asked), expected) << trial;
+    EXPECT_EQ(strength.not_zero(Datum::low, data, asked), asked) << "it has no factor of it";
+    EXPECT_EQ(Strength{}.not_zero(Datum::value, data, asked), 0U);
   }
 }
 

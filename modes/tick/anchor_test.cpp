@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "modes/scene/defaults.h"
 #include "modes/testing/test_rig.h"
 #include "testdata/analytic.h"
 
@@ -81,6 +83,41 @@ TEST(Anchor, sliding_does_not_work_the_proxy_through_a_wall) {
     const Creep creep = hold(wall, 0.2, 0);
     EXPECT_GT(creep.least_n, 0.98 * push_n) << wall.name;
     EXPECT_LT(creep.most_n, 1.02 * push_n) << wall.name;
+  }
+}
+
+/// Along the gradient, by Newton's step, however steep or flat the field is, and never farther than its bound: a
+/// gradient that is so small that its length is not known moves nothing.
+TEST(Anchor, StepIsNewtonsAndNoLongerThanItsBound) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> along;
+  std::uniform_real_distribution<double> exponent(-170, 6), way_mm(-0.3, 0.3);
+  for (int n = 0; n < 4000; ++n) {
+    const double x = along(random), y = along(random), z = along(random);
+    const Vec3 direction = glm::normalize(Vec3(x, y, z));
+    const double slope = std::pow(10, exponent(random)), mm = way_mm(random);
+    HeldSurface contact{.hold = HoldState::held, .level = 0, .held_level = mm * slope, .gradient = slope * direction};
+    const Vec3 step_mm = anchor_step_mm(contact);
+    const double expected = slope < 1e-149 ? glm::dot(step_mm, direction)
+                                           : std::clamp(mm, -defaults::anchor_step_mm, defaults::anchor_step_mm);
+    EXPECT_LE(glm::length(step_mm), defaults::anchor_step_mm * (1 + 1e-9)) << slope;
+    EXPECT_LE(glm::length(step_mm - expected * direction), 1e-9) << slope;
+  }
+}
+
+/// Where it is held and moves along the surface, the level returns to the value that is found there; where that is far
+/// off, along the slope of a millimeter, however steep it is.
+TEST(Anchor, LevelReturnsByNoMoreThanAMillimetersSlope) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> exponent(-3, 4), moved_mm(0.01, 30), away(-3, 3);
+  for (int n = 0; n < 2000; ++n) {
+    const double slope = std::pow(10, exponent(random)), mm = moved_mm(random), far_off = away(random) * slope;
+    HeldSurface contact{
+        .hold = HoldState::held, .before = HoldState::held, .level = 50, .value = 50, .gradient = {0, 0, slope}};
+    follow_level(50 + far_off, {0, 0, slope}, {mm, 0, 0}, contact);
+    const double part = 1 - std::exp(-mm / defaults::level_length_mm);
+    const double most = defaults::level_reach_mm * slope;
+    EXPECT_NEAR(contact.level, 50 + part * std::clamp(far_off, -most, most), 1e-9 * (1 + slope)) << slope;
   }
 }
 

@@ -90,6 +90,30 @@ TEST(Reach, holds_the_slices_around_every_place) {
   EXPECT_GT(some, 100);
 }
 
+/// A box beside the scan that just reaches over one of its four sides: its voxels there are felt as all others are.
+TEST(Reach, holds_the_slices_at_the_scans_sides) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> part(0.02, 0.9);
+  const io::Geometry geometry = stack(60);
+  const Vec3 half_extent_m(0.02, 0.02, 0.02);
+  for (int n = 0; n < 200; ++n) {
+    const int axis = n % 2;
+    const bool is_low = n % 4 < 2;
+    const double reached = part(random);  // voxels
+    Vec3 index(50, 50, 59 * part(random));
+    index[axis] = is_low ? reached : 100 - reached;
+    Workspace workspace;
+    workspace.center_mm = geometry.to_patient(index);
+    workspace.center_mm[axis] += is_low ? -20 : 20;
+    const SliceRange kept = slices_within_reach(geometry, workspace, half_extent_m);
+    ASSERT_FALSE(none(kept)) << "axis " << axis << ", " << reached;
+    EXPECT_LE(kept.first, std::floor(std::max(index.z - 10, 0.0)));
+    EXPECT_GE(kept.last, std::ceil(std::min(index.z + 10, 59.0)));
+    workspace.center_mm[axis] += is_low ? -2 * reached : 2 * reached;
+    EXPECT_TRUE(none(slices_within_reach(geometry, workspace, half_extent_m))) << "beside it, axis " << axis;
+  }
+}
+
 TEST(Reach, leaves_slices_out_of_a_plan_and_says_so) {
   const auto plan_of = [](double strength_n) {
     Plan plan = make_plan(testing::scene_of({testing::surface(TransferFunction(strength_n), Datum::value)}),
