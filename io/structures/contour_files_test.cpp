@@ -223,5 +223,17 @@ TEST(ContourFiles, ItemsOfOneRoiAddTheirContours) {
   }
 }
 
+// What cannot be read in part is no outline: a part of an organ would be felt as the whole.
+TEST(ContourFiles, ARoiWithAnItemThatCannotBeReadIsUnfitWhereverItStands) {
+  const std::vector<RoiContour> sound{{.height = 0}, {.height = 2}}, broken{{.height = 4, .points = 0}};
+  std::vector<std::vector<RoiContour>> items{broken, sound, sound};
+  for (int turn = 0; turn < 3; ++turn) {
+    const TestFolder folder;
+    const Structure one = rois_in(items, folder, true).at(0);
+    EXPECT_EQ(one.unfit, "a contour of it has 0 numbers, not three for each point") << turn;
+    std::rotate(items.begin(), items.begin() + 1, items.end());
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io
