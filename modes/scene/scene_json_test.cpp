@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "io/filter.h"
 #include "io/fresh_folder.h"
@@ -88,10 +90,9 @@ std::string solvers_not_as_usual() {
   return R"("solvers": )" + solvers.dump();
 }
 
-/// A scene that gives every key, none at its default: read and written, its text says the same, key by key. So no key
-/// is lost or told as another, in either direction.
-TEST(SceneJson, every_key_comes_back) {
-  const std::string text = "{" + solvers_not_as_usual() + R"(,
+/// A scene that gives every key, none at its default.
+std::string with_every_key() {
+  return "{" + solvers_not_as_usual() + R"(,
     "version": 1, "name": "n", "description": "d", "stiffness_n_per_m": 411, "gradient_scale_mm": 1.7,
     "limits": {"force_limit_n": 2.1, "slew_limit_n_per_ms": 0.7, "ramp_s": 0.31, "speed_limit_m_per_s": 0.83},
     "workspace": {"center_mm": [1, 2, -3], "rotation": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "scale": 2.5, "fit": true},
@@ -127,9 +128,32 @@ TEST(SceneJson, every_key_comes_back) {
        "strength_n": 1.9},
       {"type": "landmark", "enabled": true, "shape": "plane", "position_mm": [20, 21, 22], "direction": [0.6, 0.8, 0],
        "strength_n": 2}]})";
-  const auto json = nlohmann::json::parse(text);
-  const auto again = nlohmann::json::parse(to_json(scene_from_json(text, "everything")));
+}
+
+/// Read and written, its text says the same, key by key. So no key is lost or told as another, in either direction.
+TEST(SceneJson, every_key_comes_back) {
+  const auto json = nlohmann::json::parse(with_every_key());
+  const auto again = nlohmann::json::parse(to_json(scene_from_json(json.dump(), "everything")));
   EXPECT_EQ(again, json) << nlohmann::json::diff(json, again).dump(1);
+}
+
+/// What is written wrong is not left at its default in silence, whichever object it is in.
+TEST(SceneJson, AKeyThatIsNoneIsRefusedInEveryObject) {
+  const auto json = nlohmann::json::parse(with_every_key());
+  std::set<std::string> objects;
+  const auto leaves = json.flatten();
+  for (const auto& [leaf, value] : leaves.items()) {
+    for (nlohmann::json::json_pointer at(leaf); !at.empty();) {
+      at = at.parent_pointer();
+      if (json.at(at).is_object()) objects.insert(at.to_string());
+    }
+  }
+  EXPECT_GT(objects.size(), 30U);
+  for (const std::string& object : objects) {
+    nlohmann::json wrong = json;
+    wrong[nlohmann::json::json_pointer(object)]["no_such_key"] = 1;
+    EXPECT_THAT(error_of(wrong.dump()), HasSubstr("no_such_key")) << object;
+  }
 }
 
 TEST(SceneJson, a_filter_has_what_its_type_reads) {
@@ -161,6 +185,22 @@ TEST(SceneJson, a_filter_has_what_its_type_reads) {
   EXPECT_EQ(
       refused(R"({"type": "bilateral", "sigma_value": -1})"),
       "mine.json: filter.sigma_value: -1 is no difference of values; give the noise, in the scan's unit, above 0");
+}
+
+TEST(SceneJson, AFilterAloneIsCheckedAsOneOfAScene) {
+  for (const char* const filter : {R"({"type": "median", "width": 4})", R"({"type": "gaussian", "sigma_mm": 0})"}) {
+    EXPECT_THROW((void)filter_from_json(filter), std::invalid_argument) << filter;
+  }
+}
+
+TEST(SceneJson, AFileThatIsNotThereIsNamedBeforeTheScenesThatAre) {
+  try {
+    load_scene("no/such scene.json");
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), StartsWith("no/such scene.json: no such scene file can be read"));
+    for (const std::string& name : starting_scenes()) EXPECT_THAT(error.what(), HasSubstr(name));
+  }
 }
 
 TEST(SceneJson, what_is_not_said_takes_the_default) {

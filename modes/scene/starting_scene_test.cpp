@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,16 @@ TEST(StartingScene, goes_by_the_part_before_the_description) {
   std::swap(volume.body_part, volume.description);
   EXPECT_NE(part_of_body(volume), "HEAD");
   EXPECT_FALSE(is_of_head(volume));
+}
+
+TEST(StartingScene, is_that_of_a_flow_for_a_volume_of_vectors_alone) {
+  for (const char* const modality : {"CT", "MR"}) {
+    io::Volume volume;
+    volume.modality = modality;
+    EXPECT_EQ(starting_scene(volume), offered(modality, "", ""));
+    volume.vectors = std::make_shared<const io::VectorComponents>();
+    EXPECT_EQ(starting_scene(volume), "flow");
+  }
 }
 
 TEST(StartingScene, is_the_same_for_a_part_in_either_language) {

@@ -218,6 +218,7 @@ TEST(Catalogue, nothing_is_placed_where_a_field_is_zero_or_there_is_no_data) {
 TEST(Catalogue, AStrengthWithoutADatumIsOfTheDatumOfItsMode) {
   for (const ModeType* const type : mode_types()) {
     const std::string name(type->name);
+    EXPECT_TRUE(contains(type->keys, Key::strength)) << name << ": every mode has one";
     const std::string rest = contains(type->keys, Key::margin)     ? R"(, "structure": "liver")"
                              : contains(type->keys, Key::landmark) ? R"(, "shape": "point", "position_mm": [0, 0, 0])"
                                                                    : "";
