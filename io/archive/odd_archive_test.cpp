@@ -81,9 +81,11 @@ TEST(OddArchive, ThatIsNoneIsToldFromOne) {
                    "{} broke the connection off: it ended, or does not speak DICOM{} on that port"));
   OddArchive secure("not-dicom");
   secure.archive().tls = {true, "/no/such.pem", "", "", ""};
-  EXPECT_TRUE(says(secure.refused_echo(),
+  const std::string said = secure.refused_echo();
+  EXPECT_TRUE(says(said,
                    "archive {}: {} {} cannot be used for TLS: it has to be a readable file in PEM; give the right one "
                    "with `palpate archive add`"));
+  EXPECT_THAT(said, HasSubstr("archive odd: --tls-ca /no/such.pem cannot"));
 }
 
 TEST(OddArchive, ThatIsSilentIsGivenUp) {
@@ -97,8 +99,13 @@ TEST(OddArchive, ThatIsSilentIsGivenUp) {
 
 TEST(OddArchive, ThatRefusesToFindSaysWhy) {
   EXPECT_TRUE(says(OddArchive("refuses-find").refused_fetch(), "archive {} refused the question: {}"));
-  EXPECT_TRUE(says(OddArchive("dies-at-find").refused_fetch(),
-                   "{} broke the connection off: it ended, or does not speak DICOM{} on that port"));
+  EXPECT_TRUE(says(OddArchive("cancels-itself").refused_fetch(), "archive {} refused the question: {}"))
+      << "nobody had asked it to end";
+  for (const char* const behavior : {"dies-at-find", "dies-in-an-answer"}) {
+    EXPECT_TRUE(says(OddArchive(behavior).refused_fetch(),
+                     "{} broke the connection off: it ended, or does not speak DICOM{} on that port"))
+        << behavior;
+  }
   EXPECT_TRUE(says(OddArchive("huge-answer").refused_fetch(),
                    "{} sent an answer of more than {} bytes, which cannot be right"));
 }
@@ -113,6 +120,13 @@ TEST(OddArchive, ThatFindsWithoutEndIsStopped) {
   EXPECT_TRUE(found.more);
   EXPECT_THAT(odd.process().read_line(), HasSubstr("canceled 0FFF"));
   EXPECT_EQ(found.studies.front().patient, "M\xC3\xBCller^Zo\xC3\xAB") << "Latin-1 as UTF-8";
+}
+
+TEST(OddArchive, ThatAnswersNothingHasNotSaidTooMuch) {
+  OddArchive odd("says-nothing");
+  EXPECT_NO_THROW(find(odd.archive(), {.with_series = false}));
+  OddArchive pends("pends-without-data");
+  EXPECT_TRUE(find(pends.archive(), {.with_series = false}).studies.empty());
 }
 
 TEST(OddArchive, ThatDoesNotKnowWhereToSendSaysWhatToEnter) {
@@ -158,6 +172,8 @@ TEST(OddArchive, MeetsAFullDisk) {
     }
     EXPECT_TRUE(says(
         said, "{} cannot be written ({}): make room, or name another folder with -o; nothing is left of this fetch"));
+    EXPECT_THAT(said, HasSubstr("cannot be written (File too large)"))
+        << "the limit of a file, which stands for a disk";
   }
   OddArchive odd("good");
   odd.no_folder();
@@ -168,6 +184,21 @@ TEST(OddArchive, ThatSendsElsewhereIsFoundOut) {
   OddArchive odd("sends-nothing");
   odd.archive().uses_get = false;
   EXPECT_TRUE(says(odd.refused_fetch(), "nothing arrived here: {}, and check that no firewall is between"));
+}
+
+/// What came of an image before its connection broke is no image.
+TEST(OddArchive, ThatBreaksOffInAnImageHasNotSentIt) {
+  OddArchive odd("breaks-off-at-move");
+  odd.archive().uses_get = false;
+  EXPECT_TRUE(says(odd.refused_fetch(), "nothing arrived here: {}, and check that no firewall is between"));
+}
+
+TEST(OddArchive, ThatFallsSilentWhileItShouldSendIsGivenUp) {
+  OddArchive odd("falls-silent-at-move");
+  odd.archive().uses_get = false;
+  odd.archive().silence_s = 1;
+  EXPECT_TRUE(says(odd.refused_fetch(),
+                   "{} has said nothing for {} s: it is too busy, or another program listens on that port"));
 }
 
 TEST(OddArchive, ThatSendsUnderAnotherTitleIsTurnedAway) {
@@ -214,6 +245,71 @@ TEST(OddArchive, ThatFailsInPartIsCounted) {
   EXPECT_TRUE(says(
       fetched.warnings.front(),
       "{} of {} images of {} could not be sent by archive {}{}: fetch it again, or tell the archive's administrator"));
+}
+
+/// Of many that failed a few are named, each of them whole, and in letters that can be shown.
+TEST(OddArchive, ThatFailsMuchIsQuotedInPart) {
+  OddArchive odd("fails-much");
+  const Fetched fetched = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  ASSERT_EQ(fetched.warnings.size(), 1U);
+  const std::string said = fetched.warnings.front();
+  EXPECT_THAT(said, HasSubstr("30 of 31 images"));
+  const std::size_t open = said.find('('), shut = said.find(')', open);
+  ASSERT_NE(shut, std::string::npos);
+  const std::string words = said.substr(open + 1, shut - open - 1);
+  EXPECT_LE(words.size(), 204U);
+  EXPECT_GT(words.size(), 180U);
+  std::string wanted = "1.2.3.10";
+  for (int n = 11; n < 40; ++n) wanted += n == 12 ? " 1?" : " 1.2.3." + std::to_string(n);
+  ASSERT_TRUE(words.ends_with(" ...")) << words;
+  const std::string named = words.substr(0, words.size() - 4);
+  EXPECT_TRUE(wanted.starts_with(named + " ")) << words;
+}
+
+/// What came is kept where the archive says how many it could not send, and not where it says nothing of it.
+TEST(OddArchive, ThatGivesUpMidwayHasSentWhatItHas) {
+  OddArchive counts("gives-up-midway");
+  const Fetched fetched = fetch(counts.archive(), {"1.2.3"}, counts.folder());
+  EXPECT_EQ(fetched.files, 1U);
+  EXPECT_FALSE(fetched.complete);
+  ASSERT_EQ(fetched.warnings.size(), 1U);
+  EXPECT_THAT(fetched.warnings.front(), HasSubstr("2 of 3 images of study 1.2.3"));
+  EXPECT_TRUE(says(OddArchive("stops-midway").refused_fetch(), "archive {} did not send {}: {}(status A702)"));
+}
+
+/// As many as are allowed may come, and not one more: files, and bytes of all of them.
+TEST(OddArchive, MayComeUpToItsLimits) {
+  OddArchive odd("good");
+  const Fetched all = fetch(odd.archive(), {"1.2.3"}, odd.folder());
+  ASSERT_EQ(all.files, 2U);
+  // Five elements each, of eight bytes and a value: two UIDs of 8 bytes, one of 26 and one of 6, and a number of 2.
+  EXPECT_EQ(all.bytes, 2U * (5 * 8 + 8 + 8 + 26 + 6 + 2));
+  FetchLimits limits;
+  limits.files = 2;
+  limits.bytes = all.bytes;
+  EXPECT_EQ(fetch(odd.archive(), {"1.2.3"}, odd.folder(), limits).files, 2U);
+  OddArchive more("good"), larger("good");
+  FetchLimits one_file, a_byte_less;
+  one_file.files = 1;
+  a_byte_less.bytes = all.bytes - 1;
+  EXPECT_THAT(more.refused_fetch(one_file), HasSubstr("more than 1 files came"));
+  EXPECT_THAT(larger.refused_fetch(a_byte_less), HasSubstr("MiB came"));
+}
+
+/// Another study's image, and one that came twice: when all has come, nothing else takes room.
+TEST(OddArchive, LeavesNoImageThatIsNotKept) {
+  for (const auto& [behavior, kept] : {std::pair{"good", 2U}, {"partly-unasked", 1U}}) {
+    OddArchive odd(behavior);
+    std::size_t files = 0, there = 0;
+    fetch(odd.archive(), {"1.2.3"}, odd.folder(), {}, [&](const FetchProgress& progress) {
+      files = progress.files;
+      there = 0;
+      for (const auto& entry : fs::recursive_directory_iterator(odd.folder())) there += entry.is_regular_file() ? 1 : 0;
+      return true;
+    });
+    EXPECT_EQ(files, kept) << behavior;
+    EXPECT_EQ(there, kept) << behavior << ", as the last word had it";
+  }
 }
 
 TEST(OddArchive, ThatGrowsIsNoticed) {
@@ -331,6 +427,7 @@ TEST(ArchiveSettings, ThatCannotBeAreRefused) {
       ADD_FAILURE() << "not refused: " << message;
     } catch (const ArchiveError& error) {
       EXPECT_TRUE(says(error.what(), message));
+      EXPECT_TRUE(std::string(error.what()).starts_with("archive a: ")) << error.what();
     }
   };
   refused("--host has to be a machine's name or address", [](Archive& a) { a.host = ""; });

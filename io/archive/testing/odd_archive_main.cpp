@@ -92,6 +92,13 @@ class Serving {
     respond(socket_, request, behavior_ == "refuses-echo" ? 0x0122 : 0);
   }
 
+  /// A command that says that a dataset follows.
+  static std::string find_pending(const Request& request) {
+    return pdv(request.context, true, true,
+               with_length(element(0x00000100, little(0x8020, 2)) + element(0x00000120, little(request.id, 2)) +
+                           element(0x00000800, little(0, 2)) + element(0x00000900, little(0xFF00, 2))));
+  }
+
   /// The answer to a different request.
   void echo(Request request) {
     request.field = 0x30;
@@ -103,6 +110,15 @@ class Serving {
     if (behavior_ == "echoes") return echo(request);
     if (behavior_ == "garbage") return respond(socket_, request, 0xFF00, std::string(5, '\7') + std::string(5, '\xFF'));
     if (behavior_ == "refuses-find") return respond(socket_, request, 0xA700);
+    if (behavior_ == "cancels-itself") return respond(socket_, request, 0xFE00);
+    if (behavior_ == "pends-without-data") {
+      respond(socket_, request, 0xFF00);
+      return respond(socket_, request, 0);
+    }
+    if (behavior_ == "dies-in-an-answer") {
+      write_pdu(socket_, 4, find_pending(request));
+      std::_Exit(0);
+    }
     const std::string study = request.keys.contains(0x0020000D) ? uid_of(request.keys.at(0x0020000D)) : std::string();
     if (behavior_ == "tells-of-series" && uid_of(request.keys.at(0x00080052)).starts_with("STUDY")) {
       return respond(socket_, request, 0);
@@ -112,16 +128,17 @@ class Serving {
     if (behavior_ == "several") return find_several(request);
     if (behavior_ == "tells-late") throw Gone(read_pdu(socket_).type);
     if (behavior_ == "tells-and-errs") return write_message(socket_, request.context, "nonsense", {});
+    if (behavior_ == "says-nothing") {  // one fragment without a byte
+      write_pdu(socket_, 4, find_pending(request) + pdv(request.context, false, true, {}));
+      return respond(socket_, request, 0);
+    }
     const bool all = behavior_ == "endless-find";
     const std::string match =
         field(0x00080005, "CS", "ISO_IR 100") + field(0x00080052, "CS", "STUDY ") +
         field(0x00100010, "PN", "M\xFCller^Zo\xEB ") + field(0x0020000D, "UI", even(study.empty() ? "1.2.3" : study)) +
         field(0x0020000E, "UI", even("1.2.3.1")) + field(0x00201208, "IS", behavior_ == "grows" ? "9 " : "2 ");
     if (behavior_ == "huge-answer") {
-      write_pdu(socket_, 4,
-                pdv(request.context, true, true,
-                    with_length(element(0x00000100, little(0x8020, 2)) + element(0x00000120, little(request.id, 2)) +
-                                element(0x00000800, little(0, 2)) + element(0x00000900, little(0xFF00, 2)))));
+      write_pdu(socket_, 4, find_pending(request));
       for (int n = 0; n < 1000; ++n) write_pdu(socket_, 4, pdv(request.context, false, false, std::string(16000, 'x')));
     }
     const bool is_study = uid_of(request.keys.at(0x00080052)).starts_with("STUDY");
@@ -200,7 +217,17 @@ class Serving {
       send("1.2.3.4", study, "1.2.3.1");
       return respond(socket_, request, 0xB000, field(0x00080058, "UI", "1.2.3.6\\1.2.3.7\\1.2.3.8 "), 1, 3);
     }
+    if (behavior_ == "fails-much") {
+      send("1.2.3.4", study, "1.2.3.1");
+      std::string failed = "1.2.3.10";
+      for (int n = 11; n < 40; ++n) failed += n == 12 ? "\\1\x80" : "\\1.2.3." + std::to_string(n);
+      return respond(socket_, request, 0xB000, field(0x00080058, "UI", even(failed)), 1, 30);
+    }
     if (behavior_ == "out-of-resources") return respond(socket_, request, 0xA702);
+    if (behavior_ == "gives-up-midway" || behavior_ == "stops-midway") {
+      send("1.2.3.4", study, "1.2.3.1");
+      return respond(socket_, request, 0xA702, {}, 1, behavior_ == "gives-up-midway" ? 2 : 0);
+    }
     send("1.2.3.4", study, "1.2.3.1");
     send("1.2.3.4", study, "1.2.3.1");  // the same once more
     send("1.2.3.5", study, "1.2.3.1");
@@ -211,8 +238,17 @@ class Serving {
   void move(const Request& request) {
     if (behavior_ == "unknown-destination") return respond(socket_, request, 0xA801);
     if (behavior_ == "stranger" || behavior_ == "misdials") call_as_stranger(port_, behavior_ == "stranger");
-    if (behavior_ == "tells-all" || behavior_ == "tells-and-asks") {
-      talk(port_, uid_of(request.keys.at(0x0020000D)), behavior_ == "tells-and-asks");
+    if (behavior_ == "breaks-off-at-move") {
+      const int socket = call(port_, "ODD");
+      if (socket >= 0) read_pdu(socket);
+      begin_image(socket, 1, uid_of(request.keys.at(0x0020000D)));
+      close(socket);
+    }
+    if (behavior_ == "others-hang-up") call_and_hang_up(port_, 5);
+    if (behavior_ == "tells-all" || behavior_ == "tells-and-asks" || behavior_ == "others-hang-up" ||
+        behavior_ == "tells-its-title-with-spaces") {
+      talk(port_, uid_of(request.keys.at(0x0020000D)), behavior_ == "tells-and-asks",
+           behavior_ == "tells-its-title-with-spaces" ? "  ODD" : "ODD");
       return respond(socket_, request, 0, {}, 1);
     }
     if (behavior_ == "falls-silent-at-move") {

@@ -86,8 +86,28 @@ void call_as_stranger(int port, bool knows_us) {
   close(socket);
 }
 
-void talk(int port, const std::string& study, bool asks) {
-  const int socket = call(port, "ODD");
+void call_and_hang_up(int port, int others) {
+  const int first = call(port, "ODD");
+  if (first < 0) return;
+  read_pdu(first);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  for (int n = 0; n < others; ++n) {
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    const linger at_once{1, 0};  // closing resets
+    setsockopt(socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+    connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    close(socket);
+  }
+  write_pdu(first, 5, std::string(4, '\0'));
+  read_pdu(first);
+  close(first);
+}
+
+void talk(int port, const std::string& study, bool asks, const std::string& title) {
+  const int socket = call(port, title);
   if (socket < 0) return;
   read_pdu(socket);
   int context = 0;

@@ -20,8 +20,11 @@ void call_hesitantly(int port);
 /// the reason.
 void call_as_stranger(int port, bool knows_us);
 /// Talks as an archive does, and prints the answers: to an echo, to an image of a class other than the first context's,
-/// and to a release or, instead, to a request that is not supported.
-void talk(int port, const std::string& study, bool asks);
+/// and to a release or, instead, to a request that is not supported. `title`: what it calls itself.
+void talk(int port, const std::string& study, bool asks, const std::string& title = "ODD");
+/// While an association is open, others connect and reset their connections at once, before anyone can answer them.
+/// Then it is released.
+void call_and_hang_up(int port, int others);
 /// One image, a piece every 0.1 s for 5 s.
 void send_slowly(int port, const std::string& study);
 
