@@ -43,6 +43,7 @@ TEST(Interchange, ASeriesSaysWhatItIsAndIsTheSameAnywhere) {
   write_bytes(elsewhere / "other.mha", bytes);
   const Series series = find_series(std::array{folder.path()}).series.at(0);
   EXPECT_EQ(series.description, "knee.mha");
+  EXPECT_EQ(series.modality, "OT") << "DICOM's word for what is not said";
   EXPECT_EQ(series.unit, "");
   EXPECT_EQ(series.details.orientation, "axial");
   EXPECT_THAT(series.warnings, Contains("the file does not say what its values are: compare them with a CT's before "
