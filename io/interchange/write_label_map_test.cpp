@@ -26,6 +26,7 @@
 namespace palpate::io::internal {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -190,6 +191,7 @@ TEST(WriteLabelMap, NiftiNamesTheLabelInAnExtension) {
     EXPECT_THAT(text, HasSubstr("<Label Key=\"1\" Red=\"0.200000\" Green=\"0.400000\" Blue=\"1.000000\" Alpha=\"1\">"
                                 "<![CDATA[" +
                                 image.label.name + "]]></Label>"));
+    EXPECT_THAT(std::string(text.c_str()), EndsWith("</LabelTable></VolumeInformation></CaretExtension>"));
     EXPECT_LT(length - 8 - std::string(text.c_str()).size(), 16U) << "no more is filled up than needed";
   }
 }
