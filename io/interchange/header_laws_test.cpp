@@ -762,7 +762,8 @@ TEST(MetaImageHeader, AFourthAxisTakesNothingFromTheOthers) {
 TEST(MetaImageHeader, AnyCountOfBytesIsSkipped) {
   for (const int count : {0, 1, 2, 3, 1000}) {
     const TestFolder folder;
-    write_bytes(folder / "a.raw", std::string(static_cast<std::size_t>(count), 'x') + voxels<std::int16_t>());
+    write_bytes(folder / "a.raw",
+                std::string(static_cast<std::size_t>(count), 'x') + voxels<std::int16_t>() + "and more");
     write_bytes(folder / "a.mhd",
                 meta_image(meta_place + "HeaderSize = " + std::to_string(count) + "\nElementDataFile = a.raw\n"));
     SCOPED_TRACE(count);
