@@ -232,6 +232,42 @@ TEST(CompareStrokes, TellsWhereTheWaysAreNotTheSame) {
   EXPECT_LT(apart, 1.6 * 0.01 * mm_per_m);
 }
 
+/// A stroke in a recording's own workspace: its ticks are at these heights, mm along the patient's y.
+Recording along_y(const Recording& like, const std::vector<double>& places_mm) {
+  const modes::Workspace workspace =
+      plan_for(modes::scene_from_json(like.scenes.front().scene, "test"), *ball(25), like.scenes.front().half_extent_m)
+          ->workspace;
+  Recording made = like;
+  made.ticks.resize(places_mm.size());
+  for (std::size_t n = 0; n < places_mm.size(); ++n) {
+    const glm::dvec3 at = workspace.to_device({0, places_mm[n], 0});
+    for (int axis = 0; axis < 3; ++axis) made.ticks[n].probe_m[axis] = at[axis];
+  }
+  return made;
+}
+
+/// A hand that goes back on the way and comes again: only there are the two apart, by no more than it went back.
+TEST(CompareStrokes, ADetourIsApartWhereItIsAndNowhereElse) {
+  const auto volume = ball(25);
+  const Recording pressed = record(volume, {});
+  std::vector<double> straight, detour;
+  const auto go = [](std::vector<double>& places, double from, double to) {
+    for (int n = 0; n <= 100; ++n) places.push_back(from + (to - from) * n / 100);
+  };
+  go(straight, -28, 12);
+  go(detour, -28, -8);
+  go(detour, -8, -14);
+  go(detour, -14, 12);
+  const RecordedSession one(along_y(pressed, straight), *volume), other(along_y(pressed, detour), *volume);
+  for (const bool turned : {false, true}) {
+    const Comparison comparison = turned ? compare_strokes(other, one) : compare_strokes(one, other);
+    EXPECT_LT(comparison.most_apart_mm, 6);
+    EXPECT_GT(comparison.most_apart_mm, 1);
+    EXPECT_LT(comparison.apart_mm.front(), 2);
+    EXPECT_LT(comparison.apart_mm.back(), 2);
+  }
+}
+
 TEST(CompareStrokes, IsAPictureATableAndASentence) {
   const auto volume = ball(25);
   const RecordedSession session(record(volume, {}), *volume);

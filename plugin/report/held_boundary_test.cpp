@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "io/fields/boundary_uncertainty.h"
 #include "modes/scene/scene_json.h"
 #include "modes/tick/haptic_step.h"
 #include "plugin/report/summary.h"
@@ -129,6 +130,26 @@ TEST(HeldBoundary, OfAnOutlinedEdgeTheScanSaysNothing) {
     summary.holds = {{.mode = 1, .contact_mm = edge_mm}};
     add_uncertainty(summary, told, *felt.source, volume->geometry);
     EXPECT_EQ(summary.holds[0].known_to_mm.has_value(), !outlined);
+  }
+}
+
+/// A cubic gradient makes the value cubic, too, whatever the scene asks for; and a place is known as that value shows
+/// it.
+TEST(HeldBoundary, IsKnownAsTheValueThatIsFeltShowsIt) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(20), testdata::make_geometry({.size = glm::ivec3(56)}), {.noise = 30}));
+  const glm::dvec3 edge_mm(0, -20, 0);
+  for (const auto gradient : {io::GradientMethod::cubic, io::GradientMethod::gaussian}) {
+    modes::Scene sampled = scene();
+    sampled.sampling = {.value = io::ValueMethod::trilinear, .gradient = gradient};
+    const PreparedScene felt = prepare(sampled, volume, glm::dvec3(0.1));
+    const auto by = [&](io::ValueMethod method) {
+      return io::uncertainty_at(*felt.source, volume->geometry, method, edge_mm).two_sigma_mm;
+    };
+    const double cubic = by(io::ValueMethod::cubic), trilinear = by(io::ValueMethod::trilinear);
+    ASSERT_NE(cubic, trilinear);
+    EXPECT_EQ(known_to_mm(felt, sampled, 1, edge_mm).value(),
+              gradient == io::GradientMethod::cubic ? cubic : trilinear);
   }
 }
 

@@ -58,6 +58,7 @@ TEST(TissueName, IsTheScenesOrCtsOrTheValue) {
   EXPECT_EQ(tissue_name(scene, "", 10), "dark") << "the first that holds it";
   EXPECT_EQ(tissue_name(scene, "", 20), "bright");
   EXPECT_EQ(tissue_name(scene, "", 20.5), "value 20");
+  EXPECT_EQ(tissue_name(scene, "", -3), "value -3") << "below all of them";
 }
 
 /// What is written over: of the newest tick, with the longest of the times since the line before, and all deadlines

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
 #include "testdata/scan.h"
 
@@ -26,6 +27,22 @@ TEST(MarkPictures, TheCrossIsYellow) {
   }
   EXPECT_GT(yellow, 50);
   EXPECT_EQ(cyan, 0);
+}
+
+/// Without an absolute scale the least value of the scan is black and the largest one white.
+TEST(MarkPictures, ValuesWithoutAUnitAreShownFromTheLeastToTheLargest) {
+  io::Volume scanned =
+      testdata::scan(testdata::make_sphere(20, 300), testdata::make_geometry({.size = glm::ivec3(50)}));
+  scanned.unit.clear();
+  const auto volume = std::make_shared<const io::Volume>(std::move(scanned));
+  for (const auto& [middle_mm, wanted] : {std::pair{glm::dvec3(0), 255}, std::pair{glm::dvec3(0, 0, 24), 0}}) {
+    Marks marks;
+    marks.points.push_back({.name = "Mark 1", .position_mm = middle_mm});
+    const io::Picture picture = pictures_of(marks, volume).at(0);
+    // Beside the cross, nearer to it than any label is.
+    const int at = 3 * ((picture.rows / 2 + 37) * picture.columns + picture.columns / 2 + 20);
+    EXPECT_NEAR(picture.pixels[static_cast<std::size_t>(at)], wanted, 3);
+  }
 }
 
 }  // namespace

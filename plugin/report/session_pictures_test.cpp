@@ -121,6 +121,7 @@ TEST(SessionPictures, ATicksTimeIsCountedInItsBin) {
     all += counts.y[bin];
   }
   EXPECT_EQ(all, 30);
+  EXPECT_EQ(counts.style, Curve::Style::bars);
   EXPECT_NEAR(counts.x.front(), 0.1, 1e-12);
   ASSERT_EQ(chart.marks.size(), 3U);
   EXPECT_EQ(chart.marks[0].at, 1.25);

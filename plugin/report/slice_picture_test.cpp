@@ -183,5 +183,19 @@ TEST(SlicePicture, TheBarIsAsLongAsItSays) {
   }
 }
 
+/// A track's words stand right of its line, whole; those of the scales begin where the scale does.
+TEST(SlicePicture, WordsStandBesideWhatTheyName) {
+  const Track track{"HHHH", {}, colors::orange, 2};
+  const Canvas canvas = draw_slice(NothingScanned(), {}, {&track, 1}, {}, "", slice_width, slice_height);
+  const Marked words = marked_in(canvas, {0, title_height + 8}, {slice_width / 2.0, title_height + 30}, is_white);
+  ASSERT_FALSE(words.pixels.empty());
+  EXPECT_GE(words.left, 46);
+  EXPECT_LE(words.left, 54);
+  const Marked scale =
+      marked_in(canvas, {0, slice_height - 40.0}, {slice_width / 2.0 - 30, slice_height - 22.0}, is_white);
+  ASSERT_FALSE(scale.pixels.empty());
+  EXPECT_NEAR(scale.left, 21, 4);
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -86,6 +86,21 @@ TEST(StructureCrossings, TellTheScansOwnEdgeAndNotTheFilters) {
   }
 }
 
+/// A stroke that begins on the surface: what comes next is entered where the stroke goes in.
+TEST(StructureCrossings, FromTheSurfaceItGoesIn) {
+  Study study = study_of_a_ball(60);
+  io::Mask half;  // all that lies farther back than 0: its surface is between two voxels
+  half.geometry = testdata::make_geometry({.size = glm::ivec3(40)});
+  half.size = half.geometry.dimensions;
+  for (int n = 0; n < 40 * 40 * 40; ++n) half.occupancy.push_back(n / 40 % 40 >= 20 ? io::Mask::full : 0);
+  study.felt.structures[0].distance = io::distance_of(half);
+  ASSERT_EQ(study.felt.structures[0].distance->sample({0.5, 0, 0.5}).mm, 0);
+  const auto crossings = crossings_along({0.5, 0, 0.5}, {0.5, 10, 0.5}, study.felt);
+  ASSERT_EQ(crossings.size(), 1U);
+  EXPECT_TRUE(crossings[0].entering);
+  EXPECT_NEAR(crossings[0].depth_mm, 0, 1e-6);
+}
+
 TEST(StructureCrossings, AreNoneWhereTheStrokeStaysOutside) {
   const Study study = study_of_a_ball(60);
   EXPECT_TRUE(crossings_along({-18, 15, 0}, {18, 15, 0}, study.felt).empty());

@@ -3,9 +3,12 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <vector>
 
 #include "modes/scene/suggest.h"
 #include "modes/testing/test_rig.h"
@@ -92,6 +95,79 @@ TEST(SuggestionPicture, ShowsABoundaryWhereItIsInTheScan) {
     EXPECT_GT(colored, 0.5 * 2 * 3.1 * 22 * per_mm * per_mm);
     EXPECT_GT(on_surface, 0.99 * colored);
   }
+}
+
+/// A picture of pixels in memory.
+class Pictured {
+ public:
+  explicit Pictured(const std::filesystem::path& file)
+      : image_(cairo_image_surface_create_from_png(file.c_str()), cairo_surface_destroy) {}
+  /// Red, green and blue.
+  std::array<int, 3> at(int column, int row) const {
+    const unsigned char* const bgr =
+        cairo_image_surface_get_data(image_.get()) + row * cairo_image_surface_get_stride(image_.get()) + 4 * column;
+    return {bgr[2], bgr[1], bgr[0]};
+  }
+  bool is_dark(int column, int row) const { return at(column, row)[0] < 110; }
+  /// Dark pixels in a part of the picture.
+  int dark_in(int left, int right, int top, int bottom) const {
+    int count = 0;
+    for (int row = top; row < bottom; ++row) {
+      for (int column = left; column < right; ++column) count += is_dark(column, row) ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image_;
+};
+
+/// Beside the slices is the histogram with a disc for each boundary, at the values of its two tissues; each picture has
+/// its title, each axis its name and a number for each tissue, each boundary its color below.
+TEST(SuggestionPicture, ShowsBetweenWhichValuesTheBoundariesLie) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(8), testdata::make_geometry({.size = glm::ivec3(20)})));
+  modes::Suggestion suggestion;
+  suggestion.scene = modes::testing::scene_of(
+      {modes::testing::surface(modes::TransferFunction(0.0)), modes::testing::surface(modes::TransferFunction(0.0))});
+  suggestion.scene.modes[0].color = "#ff0000";
+  suggestion.scene.modes[1].color = "#0000ff";
+  suggestion.typical = {100, 500, 800, 300};
+  suggestion.typical.pop_back();
+  suggestion.boundaries = {{.mode = 0, .low = 0, .high = 1, .share = 0.75}, {.mode = 1, .low = 1, .high = 2}};
+  suggestion.edges.values = {.low = 0, .high = 1000, .count = 192};
+  suggestion.edges.counts.assign(192 * 192, 0);
+  suggestion.edges.counts[57 * 192 + 38] = 9;  // low at 200, high at 300
+  const auto file = testing::fresh_path("pairs.png");
+  write_suggestion_png(suggestion, volume, file);
+  const Pictured picture(file);
+  constexpr int left = 1190, top = 40, side = 520;
+  const auto column_of = [](double value) { return left + static_cast<int>(side * value / 1000); };
+  const auto row_of = [](double value) { return top + side - static_cast<int>(side * value / 1000); };
+  EXPECT_EQ(picture.at(column_of(100), row_of(500)), (std::array{255, 0, 0}));
+  EXPECT_EQ(picture.at(column_of(500), row_of(800)), (std::array{0, 0, 255}));
+  EXPECT_EQ(picture.at(column_of(500), row_of(500)), (std::array{255, 255, 255}));
+  EXPECT_LT(picture.at(column_of(200), row_of(300))[0], 60) << "counted";
+  EXPECT_EQ(picture.at(column_of(300), row_of(200)), (std::array{255, 255, 255})) << "not the other way round";
+  // Titles above the three, and nothing of them in the histogram.
+  for (const int begin : {16, 552, left}) EXPECT_GT(picture.dark_in(begin, begin + 100, 20, 36), 60) << begin;
+  EXPECT_EQ(picture.dark_in(left + 10, left + 300, top + 1, top + 20), 0);
+  // The axes' names, left of the histogram and below it.
+  EXPECT_GT(picture.dark_in(1088, 1110, top + 150, top + 370), 100);
+  EXPECT_GT(picture.dark_in(left + 100, left + 420, top + side + 36, top + side + 56), 100);
+  // Three numbers below it, each under its value.
+  std::vector<int> numbers;
+  for (int column = left - 30; column < left + side + 30; ++column) {
+    if (picture.dark_in(column, column + 1, top + side + 5, top + side + 18) == 0) continue;
+    if (numbers.empty() || column > numbers.back() + 40) numbers.push_back(column);
+  }
+  ASSERT_EQ(numbers.size(), 3U);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(numbers[n] + 11, column_of(suggestion.typical[n]), 5);
+  // Below, between the colors of two boundaries, it is white.
+  const int first = top + side + 2 * 16 + 8 - 12;
+  EXPECT_EQ(picture.at(30, first + 7), (std::array{255, 0, 0}));
+  EXPECT_EQ(picture.at(30, first + 22 + 7), (std::array{0, 0, 255}));
+  EXPECT_EQ(picture.at(30, first + 18), (std::array{255, 255, 255}));
 }
 
 }  // namespace

@@ -149,14 +149,34 @@ TEST(Tables, AProfilesCurvesAreWhatTheyAreCalled) {
   EXPECT_EQ(point_in_words(profile(), 1), "7.0 mm: 1.30 N by bone (plane), 302 HU, chalk");
 }
 
+/// Tissues beside each other are told apart by their gray.
+TEST(Tables, AProfilesTissuesAreToldApart) {
+  Profile crossed;
+  crossed.unit = "HU";
+  crossed.scene.tissues = {{.name = "a", .low = 0, .high = 9}, {.name = "b", .low = 10, .high = 99}};
+  for (const double value : {1, 2, 20, 3, 30, 4}) {
+    crossed.stroke.push_back(
+        {.position_mm = {static_cast<double>(crossed.stroke.size()), 0, 0}, .value = value, .value_passed = value});
+  }
+  const std::vector<Band> bands = charts_of(crossed)[1].bands;
+  ASSERT_EQ(bands.size(), 5U);
+  for (std::size_t n = 1; n < bands.size(); ++n) EXPECT_NE(bands[n].color.red, bands[n - 1].color.red) << n;
+}
+
 /// Every n-th point is left, and with it each contact: from its first point that is left, to its last.
 TEST(Tables, AThinnedProfilesContactsAreOnTheSamePoints) {
   Profile whole;
+  whole.unit = "HU";
+  whole.limit_n = 1.75;
+  whole.scene.name = "thinned";
   for (int n = 0; n < 1003; ++n) whole.stroke.push_back({.position_mm = {0.5 * n, 0, 0}});
   whole.met = {{.contact = {.boundary = 0, .first = 100, .last = 295}, .depth_mm = 50},
                {.contact = {.boundary = 1, .first = 400, .last = 600}, .depth_mm = 200}};
   const Profile thin = thinned(whole, 200);
   ASSERT_EQ(thin.stroke.size(), 201U);
+  EXPECT_EQ(thin.unit, "HU");
+  EXPECT_EQ(thin.limit_n, 1.75);
+  EXPECT_EQ(thin.scene.name, "thinned");
   ASSERT_EQ(thin.met.size(), 2U);
   for (std::size_t n = 0; n < 2; ++n) {
     EXPECT_EQ(thin.met[n].depth_mm, whole.met[n].depth_mm);
@@ -267,6 +287,17 @@ TEST(Tables, TheMarksColumnsAreWhatTheyAreCalled) {
                           Row{{"kind", "angle"}, {"name", "A, left"}, {"angle_deg", "77.500"}}));
 }
 
+/// RFC 4180: a cell is quoted where it has to be, and a quote in it is doubled.
+TEST(Tables, TheMarksCellsAreQuotedWhereTheyHaveToBe) {
+  Marks all;
+  for (const char* const name : {"plain", "a, b", "say \"ah\"", "two\nlines"}) all.points.push_back({.name = name});
+  const std::string csv = marks_as_csv(all);
+  for (const char* const line :
+       {"\nmark,plain,", "\nmark,\"a, b\",", "\nmark,\"say \"\"ah\"\"\",", "\nmark,\"two\nlines\","}) {
+    EXPECT_THAT(csv, ::testing::HasSubstr(line));
+  }
+}
+
 TEST(Tables, TheMarksJsonIsWhatItIsCalled) {
   using Json = nlohmann::json;
   const Json json = Json::parse(marks_as_json(marks(), "HU"));
@@ -297,6 +328,10 @@ TEST(Tables, SlicersMarkupsAreAtTheMarks) {
     EXPECT_EQ(places(markup), expected.at(markup["type"])) << markup["type"];
     EXPECT_EQ(markup["coordinateSystem"], "LPS");
     EXPECT_EQ(markup["coordinateUnits"], "mm");
+    std::size_t number = 0;
+    for (const auto& point : markup["controlPoints"]) {
+      EXPECT_EQ(point["id"], std::to_string(++number)) << "a string, as the schema says";
+    }
   }
 }
 
