@@ -81,19 +81,26 @@ TEST(SuggestionPicture, ShowsABoundaryWhereItIsInTheScan) {
   const int stride = cairo_image_surface_get_stride(image.get());
   constexpr double per_mm = 520 / 60.0;
   for (const Point middle : {Point(16 + 260, 40 + 260), Point(16 + 520 + 16 + 260, 40 + 260)}) {
-    int on_surface = 0, colored = 0;
+    int on_surface = 0, colored = 0, just_inside = 0, missing = 0;
     for (int row = 40; row < 560; ++row) {
       for (int column = static_cast<int>(middle.x) - 258; column < middle.x + 258; ++column) {
         const unsigned char* const bgr = data + row * stride + 4 * column;
-        if (std::abs(bgr[2] - bgr[0]) < 40) continue;
+        const double beyond = glm::length(Point(column, row) - middle) / per_mm - 22;
+        const bool is_colored = std::abs(bgr[2] - bgr[0]) >= 40;
+        if (beyond > -2 && beyond < -1) {
+          ++just_inside;
+          missing += is_colored ? 0 : 1;
+        }
+        if (!is_colored) continue;
         ++colored;
         // It sets in at the surface, and ends where the gradient is 0.08 of its peak: 2.25 sigma of 2 mm inside.
-        const double beyond = glm::length(Point(column, row) - middle) / per_mm - 22;
         on_surface += beyond > -6 && beyond < 1.5;
       }
     }
     EXPECT_GT(colored, 0.5 * 2 * 3.1 * 22 * per_mm * per_mm);
     EXPECT_GT(on_surface, 0.99 * colored);
+    EXPECT_GT(just_inside, 5000);
+    EXPECT_LT(missing, 0.01 * just_inside) << "all around it";
   }
 }
 
@@ -158,7 +165,7 @@ TEST(SuggestionPicture, ShowsBetweenWhichValuesTheBoundariesLie) {
   // Three numbers below it, each under its value.
   std::vector<int> numbers;
   for (int column = left - 30; column < left + side + 30; ++column) {
-    if (picture.dark_in(column, column + 1, top + side + 5, top + side + 18) == 0) continue;
+    if (picture.dark_in(column, column + 1, top + side + 5, top + side + 32) == 0) continue;
     if (numbers.empty() || column > numbers.back() + 40) numbers.push_back(column);
   }
   ASSERT_EQ(numbers.size(), 3U);
