@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -151,6 +153,19 @@ TEST(SolveJson, RepeatingChangesNothingButTheTime) {
     once.erase("time_ns");
     often.erase("time_ns");
     EXPECT_EQ(once, often);
+  }
+}
+
+/// Of all solves the fastest is told: together they take as many times that as there are of them, and more.
+TEST(SolveJson, EachRepeatTakesTheTimeThatIsTold) {
+  constexpr int repeat = 2000;
+  for (const solver::SolverType* const choice : all_choices) {
+    const auto begun = std::chrono::steady_clock::now();
+    const Json json =
+        answer(oblique, {.solver = choice == &solver::analytical_solver ? nullptr : choice, .repeat = repeat});
+    const std::chrono::nanoseconds all = std::chrono::steady_clock::now() - begun;
+    EXPECT_GE(json["time_ns"].get<std::int64_t>(), 0);
+    EXPECT_LE(json["time_ns"].get<std::int64_t>(), all.count() / repeat);
   }
 }
 
