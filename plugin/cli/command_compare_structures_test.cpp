@@ -155,7 +155,10 @@ TEST(CommandCompareStructures, IsRefusedInWords) {
     EXPECT_EQ(outcome.exit, exit) << outcome.output;
     EXPECT_TRUE(says(outcome.output, why));
   };
-  refused(a + " " + b, 1, "{} and {} lie in different frames of reference: nothing says how one lies in the other");
+  const char* const apart =
+      "a.dcm and b.dcm lie in different frames of reference: nothing says how one lies in the other";
+  refused(a + " " + b, 1, apart);
+  refused(a + " " + a + " --to " + b, 1, apart);
   refused(a + " " + a + ":7", 1, "{} has no \"{}\"; there are: 1 Cube");
   refused(a + " /no/such.dcm", 1, "/no/such.dcm");
   std::ofstream(folder / "text.dcm") << "none";

@@ -275,6 +275,26 @@ TEST(CommandInfo, TellsTheSeriesOfAStudyApartAndWhichToFeelFirst) {
       {"kind": "segmentation", "count": 2}, {"kind": "dose report", "count": 1}, {"kind": "other file", "count": 1}])"));
 }
 
+/// Of a series that is padding alone there are values with it and none without it.
+TEST(CommandInfo, PaddingAloneHasNoValues) {
+  const fs::path folder = fresh_path("padding");
+  fs::create_directories(folder);
+  io::internal::write_stack(folder, 5, [](int, io::internal::TestImage& image) {
+    image.value = [](int, int) { return 7; };
+    image.edit = [](DcmDataset& d) {
+      io::internal::put(d, DCM_PixelPaddingValue, 7);
+      io::internal::put(d, DCM_RescaleSlope, "1");
+      io::internal::put(d, DCM_RescaleIntercept, "-1000");
+    };
+  });
+  const Json s = Json::parse(palpate("info --json " + folder.string(), false).output).at("series").at(0);
+  for (const std::string key : {"minimum", "maximum", "mean"}) {
+    EXPECT_TRUE(s.at(key).is_null()) << s.at(key);
+    EXPECT_EQ(s.at(key + "_with_padding"), 7 - 1000) << key;
+  }
+  EXPECT_THAT(palpate("info " + folder.string(), false).output, Not(HasSubstr("values ")));
+}
+
 TEST(CommandInfo, SumsUpWhatIsSetApart) {
   const std::string study = written_study().string();
   const std::string text = palpate("info " + study, false).output;

@@ -267,6 +267,7 @@ TEST(CommandNumbers, InfosTextHasTheGridsNumbers) {
   EXPECT_THAT(text, HasSubstr(fmt::format("   values {:.6g} to {:.6g}, mean {:.6g} HU\n", s.at("minimum").get<double>(),
                                           s.at("maximum").get<double>(), s.at("mean").get<double>())));
   EXPECT_THAT(text, HasSubstr("28 files\n"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("set apart"))) << "nothing was";
 }
 
 }  // namespace

@@ -140,6 +140,11 @@ TEST(CommandNumbers, TheMarksWordsHaveTheNumbersOfTheirJson) {
                          angle.at("degrees").get<double>());
   }
   EXPECT_EQ(palpate(command, false).output, words);
+  const std::string table = palpate(command + " --csv", false).output;
+  EXPECT_THAT(table, ::testing::StartsWith("kind,name,time_s,x_mm,"));
+  EXPECT_EQ(
+      static_cast<std::size_t>(std::ranges::count(table, '\n')),
+      1 + told.at("marks").size() + told.at("paths").size() + told.at("distances").size() + told.at("angles").size());
   const Outcome exported = palpate("export " + (out / "recording.h5").string() + " " + phantom().string() + " -o " +
                                    fresh_path("pressed_results").string());
   EXPECT_THAT(exported.output,
@@ -304,6 +309,26 @@ TEST(CommandNumbers, AnArchivesSettingsAreListedAsTheyWereEntered) {
   EXPECT_EQ(all.at("fetched").at("bytes"), 0);
   EXPECT_THAT(testing::run_command(program + " archive list 2>/dev/null").output,
               HasSubstr("clinic  pacs:4242  its AE title THEIRS, ours OURS; C-MOVE to 127.0.0.1:11113\n"));
+}
+
+/// An archive that does not answer is an error of each command that asks it for something, and nothing is told as done.
+TEST(CommandNumbers, AnArchiveThatDoesNotAnswerIsNamedByEveryCommand) {
+  const std::string program = "XDG_CONFIG_HOME=" + fresh_path("no_archive").string() +
+                              " XDG_CACHE_HOME=" + fresh_path("no_cache").string() + " " + PALPATE_PROGRAM;
+  ASSERT_EQ(testing::run_command(program + " archive add clinic --host 127.0.0.1 --port 1 --called A --calling B --get "
+                                           ">/dev/null 2>&1")
+                .exit,
+            0);
+  const fs::path one = fresh_path("one_file");
+  fs::create_directories(one);
+  fs::copy(fs::directory_iterator(phantom())->path(), one / "image.dcm");
+  for (const std::string& asked : {std::string("find --patient Doe"),
+                                   "fetch 1.2.3 -o " + fresh_path("unfetched").string(), "send " + one.string()}) {
+    const Outcome outcome = testing::run_command(program + " " + asked + " 2>&1");
+    EXPECT_EQ(outcome.exit, 1) << asked;
+    EXPECT_THAT(outcome.output, HasSubstr("archive clinic (127.0.0.1:1)")) << asked;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+  }
 }
 
 /// The last fault is told from its file; of a stylus what its driver says of itself.

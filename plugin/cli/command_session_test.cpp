@@ -270,7 +270,10 @@ TEST(CommandSession, InterruptedItEndsInGoodOrderAndKilledItLeavesAReadableFile)
       const Recording left = read_recording(partial);
       EXPECT_FALSE(left.complete);
       EXPECT_GT(left.ticks.size(), 800U);
-      EXPECT_EQ(palpate("replay " + partial + " " + folder).exit, 0);
+      const Outcome again = palpate("replay " + partial + " " + folder);
+      EXPECT_EQ(again.exit, 0);
+      EXPECT_THAT(again.output, HasSubstr(" was not closed in good order; " + std::to_string(left.ticks.size()) +
+                                          " ticks of it can be read"));
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "io/archive/testing/says.h"
@@ -69,6 +70,18 @@ TEST(CommandSuspects, ACapThatWasCutOffIsListedAndAnOutlineAsItIsIsNot) {
   EXPECT_THAT(words.output, HasSubstr(": 1 doubtful place; "));
   EXPECT_THAT(words.output, ::testing::ContainsRegex("edge: the scan's edge lies [1-4][.][0-9] mm outside in the mean, "
                                                      "(4[.][5-9]|5[.]0) at most, [+]- 0[.]"));
+  // The numbers end below their headings.
+  std::istringstream lines(words.output.substr(words.output.find(": 1 doubtful place; ")));
+  std::string told, heading, row;
+  std::getline(lines, told);
+  std::getline(lines, heading);
+  std::getline(lines, row);
+  const std::size_t area_ends = row.find("  edge: ");
+  ASSERT_NE(area_ends, std::string::npos) << row;
+  EXPECT_EQ(heading.size(), area_ends) << heading;
+  EXPECT_TRUE(heading.ends_with("cm2")) << heading;
+  const std::size_t place_ends = row.find_last_not_of(' ', row.find_last_of(' ', area_ends - 1)) + 1;
+  EXPECT_EQ(heading.find(" mm)") + 4, place_ends) << heading << "\n" << row;
 }
 
 TEST(CommandSuspects, AHoleAndAnIslandAreListed) {
