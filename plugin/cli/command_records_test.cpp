@@ -309,6 +309,7 @@ TEST(CommandNumbers, AnArchivesSettingsAreListedAsTheyWereEntered) {
   EXPECT_EQ(all.at("fetched").at("bytes"), 0);
   EXPECT_THAT(testing::run_command(program + " archive list 2>/dev/null").output,
               HasSubstr("clinic  pacs:4242  its AE title THEIRS, ours OURS; C-MOVE to 127.0.0.1:11113\n"));
+  EXPECT_EQ(testing::run_command(program + " archive remove clinic 2>&1").output, "clinic is no longer entered\n");
 }
 
 /// An archive that does not answer is an error of each command that asks it for something, and nothing is told as done.

@@ -1,5 +1,6 @@
 // Structures as a script uses them, on a scan and a label map made here: the checks of SharedCommandStructures on real
 // organs, for checkouts without the shared data.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 
 #include "plugin/testing/command_rig.h"
 #include "plugin/testing/kept_out.h"
+#include "plugin/testing/registered_study.h"
 
 namespace palpate::plugin {
 namespace {
@@ -147,12 +149,22 @@ TEST(MadeStructures, OfASceneAreRefusedInWords) {
 
 TEST(MadeStructures, AreOfferedWithWhatIsSuggested) {
   const fs::path folder = folder_of_labels();
-  const Outcome json = palpate("suggest " + phantom().string() + " --structures " + folder.string(), false);
-  ASSERT_EQ(json.exit, 0);
-  const Json offered = Json::parse(json.output).at("structures");
+  testing::write_contours(folder / "rt.dcm", "1.2", "7", "Doe^Jane");  // of another patient
+  const fs::path scene = folder / "suggested.json";
+  const Outcome words =
+      palpate("suggest " + phantom().string() + " --structures " + folder.string() + " -o " + scene.string(), false);
+  ASSERT_EQ(words.exit, 0);
+  const Json offered = Json::parse(testing::text_in(scene)).at("structures");
   ASSERT_EQ(offered.size(), 2U);
   EXPECT_EQ(offered[0].at("segment"), 1);
   EXPECT_EQ(offered[0].at("file"), (folder / "labels.mha").string());
+  for (const Json& one : offered) {
+    EXPECT_THAT(words.output,
+                HasSubstr(fmt::format("  {:<36} label map, labels.mha\n", one.at("name").get<std::string>())));
+  }
+  EXPECT_THAT(words.output, HasSubstr(fmt::format("  {:<36} cannot be felt: ", "Cube")));
+  EXPECT_THAT(words.output, HasSubstr(R"(  one is felt where a mode names it: {"type":"surface","structure":)" +
+                                      offered[0].at("name").dump() + R"(,"strength_n":1})"));
 }
 
 }  // namespace
