@@ -9,10 +9,13 @@
 #include <csignal>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "device/simulated/simulated_stylus.h"
+#include "plugin/cli/ready_session.h"
 #include "plugin/recording/recording.h"
 #include "plugin/testing/command_rig.h"
 
@@ -276,6 +279,39 @@ TEST(CommandSession, InterruptedItEndsInGoodOrderAndKilledItLeavesAReadableFile)
                                           " ticks of it can be read"));
     }
   }
+}
+
+/// A stylus that tells only once it is open that it is weak.
+class WeakOnceOpen : public device::Stylus {
+ public:
+  device::Specification specification() const override {
+    device::Specification can = device::SimulatedStylus().specification();
+    can.maximum_force = is_open ? 0.5 : 3;
+    return can;
+  }
+  void open() override { is_open = true; }
+  void close() noexcept override { is_open = false; }
+  device::Reading read() noexcept override { return {}; }
+  void write_force(const device::Vec3& /*force*/) noexcept override {}
+  device::State state() const noexcept override { return device::State::disconnected; }
+  bool is_open = false;
+};
+
+/// What a real stylus can do is asked of it when it is open; the simulated one is opened by the session alone.
+TEST(CommandSession, AStylusIsAskedWhatItCanDoWhenItIsOpen) {
+  SessionOption option;
+  option.series.path = phantom().string();
+  option.scene = "ct-skin-and-bone";
+  const auto real = std::make_shared<WeakOnceOpen>();
+  ::testing::internal::CaptureStderr();
+  const ReadySession ready = prepare_session(option, real);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("reduced to 0.5 N"));
+  EXPECT_TRUE(real->is_open);
+  EXPECT_FALSE(ready.simulated);
+  const auto simulated = std::make_shared<device::SimulatedStylus>();
+  EXPECT_TRUE(prepare_session(option, simulated).simulated);
+  EXPECT_EQ(simulated->state(), device::State::disconnected);
+  std::signal(SIGPIPE, SIG_DFL);  // prepare_session() ignores it
 }
 
 TEST(CommandSession, ADeviceThatIsNotThereIsNamed) {
