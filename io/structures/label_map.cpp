@@ -123,10 +123,12 @@ class Labels {
     const auto layers = static_cast<std::size_t>(image_.layers);
     const auto columns = static_cast<std::size_t>(image_.geometry.dimensions.x);
     const std::size_t voxel = n / layers;
+    bool is_beside_background = false;
     const auto compare = [&](bool is_there, const std::vector<int>& labels, std::size_t back) {
       if (!is_there) return;
       ++pairs_;
       const int other = labels[n - back];
+      is_beside_background = is_beside_background || other == 0;
       changes_ += other == here_[n] ? 0 : 1;
       touching_ += other == 0 ? 0 : 1;
       differing_ += other == 0 || other == here_[n] ? 0 : 1;
@@ -134,6 +136,8 @@ class Labels {
     compare(voxel % columns > 0, here_, layers);
     compare(voxel >= columns, here_, layers * columns);
     compare(has_below_, below_, 0);
+    ++labeled_;
+    thin_ += is_beside_background ? 1 : 0;
     if (here_[n] > static_cast<int>(most_label)) {
       ++too_large_;
       return;
@@ -143,21 +147,22 @@ class Labels {
       last_ = &boxes_[label_number(layer, here_[n])];
       last_label_ = here_[n];
       last_layer_ = layer;
-      if (boxes_.size() > most_labels()) is_map_ = false;
+      constexpr std::size_t most_labels = 4096;
+      if (boxes_.size() > most_labels) is_map_ = false;
     }
     const glm::ivec3 at(static_cast<int>(voxel % columns), static_cast<int>(voxel / columns), k);
     last_->low = glm::min(last_->low, at);
     last_->high = glm::max(last_->high, at);
   }
-  std::size_t most_labels() const { return is_named_ && !image_.said_to_be_labels ? 256 : 4096; }
   /// Labels adjoin themselves along all axes; an image's values differ from voxel to voxel. What the user says are
-  /// labels may be as thin as a voxel, but hardly any voxel of them has another label beside it.
+  /// labels may be as thin as a voxel: then the background lies beside most voxels, and seldom another label.
   bool looks_like_an_image() const {
     if (image_.said_to_be_labels || boxes_.size() <= 2) return false;
-    constexpr double most_differing = 0.9;
-    if (is_named_) return static_cast<double>(differing_) > most_differing * static_cast<double>(touching_);
     constexpr std::uint64_t least = 3;
-    return changes_ * least > pairs_;
+    const bool adjoin_themselves = changes_ * least <= pairs_;
+    if (adjoin_themselves || !is_named_) return !adjoin_themselves;
+    constexpr std::size_t most_thin = 256;  // labels
+    return boxes_.size() > most_thin || 2 * thin_ < labeled_ || 2 * differing_ > touching_;
   }
 
   const VoxelFile& image_;
@@ -167,6 +172,7 @@ class Labels {
   bool has_below_ = false, is_map_ = true;
   std::uint64_t pairs_ = 0, changes_ = 0;       // voxels with a label and those before them; and where the two differ
   std::uint64_t touching_ = 0, differing_ = 0;  // the same of pairs that have a label both
+  std::uint64_t labeled_ = 0, thin_ = 0;        // voxels with a label; those after the background along an axis
   std::uint64_t too_large_ = 0;
   Box* last_ = nullptr;
   int last_label_ = 0, last_layer_ = -1;

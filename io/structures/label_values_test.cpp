@@ -1,13 +1,16 @@
 // Which values of a NIfTI are labels, and which are those of an image.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "io/structures/structure.h"
 #include "io/testing/test_image.h"
@@ -121,6 +124,74 @@ TEST_F(LabelValues, OfAnImageAreNoneAndSaysSoIfTheUserNamesIt) {
   ASSERT_EQ(named.skipped.size(), 1U);
   EXPECT_EQ(named.skipped[0].reason,
             "its values are no labels, which are whole numbers from 1 to 65535: name a label map");
+}
+
+/// Small whole numbers that look random and are always the same.
+int scattered(const glm::ivec3& at, int below) {
+  const unsigned n = static_cast<unsigned>(at.x) * 73856093U ^ static_cast<unsigned>(at.y) * 19349663U ^
+                     static_cast<unsigned>(at.z) * 83492791U;
+  return static_cast<int>((n * 2654435761U >> 8U) % static_cast<unsigned>(below));
+}
+
+// A parcellation has hundreds of labels: those are the same whether their folder or their file is named.
+TEST_F(LabelValues, OfManyBlocksAreLabelsWhereverTheyAreNamed) {
+  for (const auto& [blocks, edge] :
+       {std::pair{glm::ivec3(5, 5, 4), 4}, {{8, 5, 9}, 4}, {{10, 10, 10}, 4}, {{12, 12, 12}, 3}, {{7, 6, 8}, 5}}) {
+    const auto value = [&, n = blocks, wide = edge](const glm::ivec3& at) {
+      const glm::ivec3 block = at / wide;
+      return block.x + n.x * (block.y + n.y * block.z) + 1.0;
+    };
+    const fs::path file = written_volume<std::int32_t>(edge * blocks, value);
+    const auto count = static_cast<std::size_t>(blocks.x * blocks.y * blocks.z);
+    for (const fs::path& place : {file.parent_path(), file}) {
+      const StructureCatalogue found = find_structures(std::array{place});
+      ASSERT_EQ(found.structures.size(), count) << (found.skipped.empty() ? Text() : found.skipped[0].reason);
+      EXPECT_EQ(measure(found.structures[count / 2]).voxels, static_cast<std::uint64_t>(edge * edge * edge));
+    }
+  }
+}
+
+// Images of 8 bits that change slowly: to a fifth and more of all neighbors have the same value, and the background
+// lies around them. So do those that were made larger. But most of their voxels have others beside them.
+TEST_F(LabelValues, OfASmoothImageOfEightBitsAreNoneWhereverItIsNamed) {
+  const glm::ivec3 size(26);
+  for (const double slope : {0.45, 0.6, 0.9, 1.4, 2.4}) {
+    for (const int larger : {1, 2}) {
+      for (const bool in_air : {true, false}) {
+        const auto value = [&](const glm::ivec3& at) {
+          const glm::ivec3 from = at / larger;
+          const Vec3 place(larger * from);
+          if (in_air && glm::length(place - 13.0) > 11) return 0.0;
+          const double smooth = 60 + slope * (place.x + place.y + place.z) + scattered(from, 2);
+          return std::clamp(std::floor(smooth), 1.0, 255.0);
+        };
+        const fs::path file = written_volume<std::int32_t>(size, value);
+        for (const fs::path& place : {file, file.parent_path()}) {
+          const StructureCatalogue found = find_structures(std::array{place});
+          EXPECT_TRUE(found.structures.empty())
+              << slope << ' ' << larger << ' ' << in_air << ": " << found.structures.size();
+        }
+      }
+    }
+  }
+}
+
+// Sheets, lines and marks of a voxel's width, each cut into several labels.
+TEST_F(LabelValues, AsThinAsAVoxelAreLabelsWhereTheirFileIsNamed) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int long_mm : {2, 3, 7}) {
+      for (const int across : {1, 2}) {  // directions in which it is a voxel wide
+        const auto value = [&](const glm::ivec3& at) {
+          const int wide = at[(axis + 1) % 3], other = at[(axis + 2) % 3];
+          const bool in = wide % 5 == 2 && (across == 1 || other % 4 == 1);
+          return in ? 1.0 + at[axis] / long_mm + 12 * (wide / 5) : 0.0;
+        };
+        const fs::path file = written_volume<std::int32_t>(glm::ivec3(21), value);
+        const auto count = static_cast<std::size_t>(4 * ((21 + long_mm - 1) / long_mm));
+        EXPECT_EQ(find_structures(std::array{file}).structures.size(), count) << axis << ' ' << long_mm << across;
+      }
+    }
+  }
 }
 
 }  // namespace
