@@ -146,7 +146,8 @@ std::vector<Level> levels_of(const ContourStack& stack, const Rectangle& all, in
   // If the scan ends there, too, it is unknown whether the structure goes on: it is continued with the shape of its
   // end.
   const auto add_beyond = [&](double height, const ContourStack::Plane& end) {
-    levels.push_back({height, is_seen(options, stack.axes * Vec3(middle, height)) ? nullptr : &end});
+    const bool is_empty = is_seen(options, stack.axes * Vec3(middle, height), stack.axes[2]);
+    levels.push_back({height, is_empty ? nullptr : &end});
   };
   for (int n = beyond; n > 0; --n) {
     add_beyond(stack.planes.front().height - n * stack.step_mm, stack.planes.front());

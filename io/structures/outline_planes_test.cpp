@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 #include <vector>
 
 #include "io/errors.h"
@@ -285,18 +286,74 @@ Geometry lattice_with(int slices, const Vec3& first, const Vec3& step) {
   return g;
 }
 
-// Up to half a voxel beyond the scan's outermost ones, along each of its axes.
+// Up to half a voxel beyond the scan's outermost ones, along each of its axes. What lies beyond on another axis does
+// not count.
 TEST(PlacesThatAScanHasSeen, EndHalfAVoxelBeyondIt) {
   const ObliquePlanes planes;
   const Geometry scan = lattice_with(5, planes.first, 2.0 * planes.n + 0.3 * planes.v);
   const DistanceOptions options{.scan = &scan};
+  const std::array normals{planes.u, planes.v, planes.n};
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool behind : {false, true}) {
       for (const auto& [beyond, seen] : {std::pair{-1.0, true}, {0.45, true}, {0.55, false}, {4.0, false}}) {
-        Vec3 index(3, 2, 1);
-        index[axis] = behind ? scan.dimensions[axis] - 1 + beyond : -beyond;
-        EXPECT_EQ(is_seen(options, scan.to_patient(index)), seen) << axis << behind << ' ' << beyond;
-        EXPECT_TRUE(is_seen({}, scan.to_patient(index)));
+        for (const double aside : {0.0, -30.0, 50.0}) {
+          for (const double sense : {-1.0, 1.0}) {
+            Vec3 index(3, 2, 1);
+            index[(axis + 1) % 3] += aside;
+            index[axis] = behind ? scan.dimensions[axis] - 1 + beyond : -beyond;
+            const Vec3 normal = glm::normalize(sense * normals.at(static_cast<std::size_t>(axis)) + 0.1 * planes.u);
+            EXPECT_EQ(is_seen(options, scan.to_patient(index), normal), seen) << axis << behind << ' ' << beyond;
+            EXPECT_TRUE(is_seen({}, scan.to_patient(index), normal));
+          }
+        }
+      }
+    }
+  }
+}
+
+// Contours that end within the scan end there, wherever their middle lies beside the scan; at the scan's own ends they
+// go on.
+TEST(PlacesThatAScanHasSeen, EndContoursWhereverTheirMiddleLies) {
+  const glm::dmat3 straight(1), turned(ObliquePlanes().u, ObliquePlanes().v, ObliquePlanes().n);
+  for (const glm::dmat3& axes : {straight, turned}) {
+    Geometry scan;
+    scan.dimensions = {24, 20, 22};
+    scan.direction_i = axes[0];
+    scan.direction_j = axes[1];
+    scan.step = axes[2];
+    for (int k = 0; k < 22; ++k) scan.slice_positions.push_back(static_cast<double>(k) * axes[2]);
+    DistanceOptions options{.scan = &scan};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const auto& [x, y] : {std::pair{10.0, 10.0}, {-4.0, 8.0}, {9.0, 27.0}, {-3.0, -3.0}, {26.0, 27.0}}) {
+        for (const bool through : {false, true}) {
+          const int first = through ? 0 : 7, last = through ? scan.dimensions[axis] - 1 : 12;
+          const auto at = [&, x = x, y = y](double beside, double along, double height) {
+            Vec3 index(0);
+            index[axis] = height;
+            index[(axis + 1) % 3] = x + beside;
+            index[(axis + 2) % 3] = y + along;
+            return scan.to_patient(index);
+          };
+          std::vector<Contour> contours;
+          for (int k = first; k <= last; ++k) {
+            contours.push_back({at(-13, -13, k), at(13, -13, k), at(13, 13, k), at(-13, 13, k)});
+          }
+          const ContourStack stack = stack_of(contours);
+          const OutlinePlanes planes = planes_of(stack, options);
+          const double low = glm::dot(at(0, 0, first), stack.axes[2]), high = glm::dot(at(0, 0, last), stack.axes[2]);
+          int beyond = 0;
+          for (std::size_t n = 0; n < planes.node.size(); ++n) {
+            const double height = glm::dot(planes.lattice.position({0, 0, planes.node[n]}), stack.axes[2]);
+            const double away = std::max(std::min(low, high) - height, height - std::max(low, high));
+            if (away < 0.1 || away > 4.1) continue;
+            PlaneDistances distances;
+            planes.compute(n, distances);
+            const auto inside = std::ranges::count(distances.to_inside, 0.0F);
+            EXPECT_EQ(inside > 0, through) << axis << ' ' << x << ' ' << y;
+            ++beyond;
+          }
+          EXPECT_EQ(beyond, 8);
+        }
       }
     }
   }
