@@ -12,6 +12,7 @@
 #include <ctime>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -232,6 +233,35 @@ TEST(ContourFiles, ARoiWithAnItemThatCannotBeReadIsUnfitWhereverItStands) {
     const Structure one = rois_in(items, folder, true).at(0);
     EXPECT_EQ(one.unfit, "a contour of it has 0 numbers, not three for each point") << turn;
     std::rotate(items.begin(), items.begin() + 1, items.end());
+  }
+}
+
+// What is said of contours that are not closed is the same in one item or in several, in any order.
+TEST(ContourFiles, ItemsOfOneRoiTellOfAllTheirContours) {
+  const auto told = [](const std::vector<std::vector<RoiContour>>& items) {
+    const TestFolder folder;
+    const Structure one = rois_in(items, folder, true).at(0);
+    std::vector<std::string> words{std::string(one.unfit)};
+    for (const Text& warning : one.warnings) words.emplace_back(warning);
+    return words;
+  };
+  const std::vector<RoiContour> closed{{.height = 0}, {.height = 2}}, none;
+  const std::vector<RoiContour> points{{.type = "POINT"}, {.type = "POINT"}}, lines{{.type = "OPEN_PLANAR"}};
+  for (const bool has_closed : {true, false}) {
+    std::vector<std::vector<RoiContour>> items{points, lines, none};
+    if (has_closed) items.push_back(closed);
+    std::vector<RoiContour> all;
+    for (const auto& item : items) all.insert(all.end(), item.begin(), item.end());
+    const std::vector<std::string> whole = told({all});
+    EXPECT_EQ(whole.size(), has_closed ? 2U : 1U);
+    EXPECT_NE(whole.back().find("1 OPEN_PLANAR, 2 POINT"), std::string::npos) << whole.back();
+    std::vector<std::size_t> order(items.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    do {
+      std::vector<std::vector<RoiContour>> turned;
+      for (const std::size_t n : order) turned.push_back(items[n]);
+      EXPECT_EQ(told(turned), whole);
+    } while (std::ranges::next_permutation(order).found);
   }
 }
 

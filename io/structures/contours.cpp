@@ -32,6 +32,7 @@ using internal::text_of;
 
 struct Roi {
   std::vector<Contour> contours;
+  std::map<std::string, int> others;  ///< how many contours of each type that is not closed
   ContourRule rule;
   bool is_broken = false;  ///< one of its items cannot be read
 };
@@ -99,10 +100,8 @@ Contour contour_in(DcmItem& item) {
   return contour;
 }
 
-/// The closed contours of a ROI, and in `unfit` why it cannot be felt.
-Roi closed_contours(DcmItem& item_of_roi, Text& unfit, std::vector<Text>& warnings) {
-  Roi roi;
-  std::map<std::string, int> others;
+/// The contours of one item. Some files hold several items of a ROI: its contours are those of all.
+void add_contours(DcmItem& item_of_roi, Roi& roi) {
   for_items(item_of_roi, DCM_ContourSequence, [&](DcmItem& item) {
     const std::string type = text_of(item, DCM_ContourGeometricType);
     if (type == "CLOSED_PLANAR" || type == "CLOSEDPLANAR_XOR") {
@@ -113,37 +112,36 @@ Roi closed_contours(DcmItem& item_of_roi, Text& unfit, std::vector<Text>& warnin
       const double thickness = number_of(item, contour_slab_thickness).value_or(0);
       if (thickness <= internal::farthest_place_mm) roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, thickness);
     } else {
-      ++others[internal::utf8_of(type, {})];
+      ++roi.others[internal::utf8_of(type, {})];
     }
   });
-  std::string open;
-  for (const auto& [type, count] : others) {
-    open += (open.empty() ? "" : ", ") + std::to_string(count) + " " + (type.empty() ? "of no type" : type);
-  }
-  if (roi.contours.empty()) {
-    unfit = open.empty() ? say("no-contour") : say("no-closed-contour", open);
-  } else if (!open.empty()) {
-    warnings.push_back(say("contours-that-are-not-closed-are-left", open));
-  }
-  return roi;
 }
 
-/// The contours of one item. Some files hold several items of a ROI: its contours are those of all.
-void add_contours(DcmItem& item, Roi& roi, Structure& structure) {
+void take_item(DcmItem& item, Roi& roi, Structure& structure) {
   if (const std::string color = color_of_rgb(numbers_of(item, DCM_ROIDisplayColor)); !color.empty()) {
     structure.color = color;
   }
   if (roi.is_broken) return;
   try {
-    Text unfit;
-    Roi more = closed_contours(item, unfit, structure.warnings);
-    std::ranges::move(more.contours, std::back_inserter(roi.contours));
-    roi.rule.is_exclusive = roi.rule.is_exclusive || more.rule.is_exclusive;
-    roi.rule.thickness_mm = std::max(roi.rule.thickness_mm, more.rule.thickness_mm);
-    structure.unfit = roi.contours.empty() ? unfit : Text();
+    add_contours(item, roi);
   } catch (const DicomError& error) {
     structure.unfit = error.text();
     roi.is_broken = true;
+  }
+}
+
+/// Says why a ROI cannot be felt, or what of it is left out.
+void judge(const Roi& roi, Structure& structure) {
+  if (roi.is_broken) return;
+  std::string open;
+  for (const auto& [type, count] : roi.others) {
+    open += (open.empty() ? "" : ", ") + std::to_string(count) + " " + (type.empty() ? "of no type" : type);
+  }
+  structure.unfit = Text();
+  if (roi.contours.empty()) {
+    structure.unfit = open.empty() ? say("no-contour") : say("no-closed-contour", open);
+  } else if (!open.empty()) {
+    structure.warnings.push_back(say("contours-that-are-not-closed-are-left", open));
   }
 }
 
@@ -198,8 +196,9 @@ std::vector<Structure> structures_of_contours(const StructureDataset& file) {
   for_items(dataset, DCM_ROIContourSequence, [&](DcmItem& item) {
     const auto found = structures.find(
         static_cast<int>(std::clamp(number_of(item, DCM_ReferencedROINumber).value_or(-2e9), -2e9, 2e9)));
-    if (found != structures.end()) add_contours(item, rois[found->first], found->second);
+    if (found != structures.end()) take_item(item, rois[found->first], found->second);
   });
+  for (const auto& [number, roi] : rois) judge(roi, structures.at(number));
   std::vector<double> steps_mm = check_planes(rois, structures);
   give_thickness(rois, std::move(steps_mm));
   const auto source = std::make_shared<const ContourSource>(std::move(rois));

@@ -107,13 +107,15 @@ StructureCatalogue find_structures(std::span<const fs::path> paths, const Progre
   internal::start_dcmtk();
   StructureCatalogue catalogue;
   const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped);
+  std::vector<fs::path> named_paths(paths.begin(), paths.end());
+  std::ranges::sort(named_paths);
   std::vector<StructureCatalogue> found(files.size());
   std::vector<Text> reasons(files.size());
   internal::parallel_for(
       files.size(),
       [&](std::size_t n) {
         try {
-          found[n] = structures_in(files[n], std::ranges::find(paths, files[n]) != paths.end());
+          found[n] = structures_in(files[n], std::ranges::binary_search(named_paths, files[n]));
         } catch (const Refusal& error) {
           reasons[n] = error.text();
         } catch (const std::exception& error) {
