@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "io/dicom/decode.h"
 #include "io/dicom/fragments.h"
@@ -52,6 +53,14 @@ void FrameReader::inflate(std::uint64_t at, std::span<std::byte> bytes) {
 }
 
 std::vector<std::byte> FrameReader::read_bytes(std::uint64_t offset, std::uint64_t count) {
+  if (pixels_.swapped_words) {
+    const std::uint64_t lead = offset % 2;
+    std::vector<std::byte> words(lead + count + (lead + count) % 2);
+    file_.read(pixels_.at + offset - lead, words);
+    for (std::size_t n = 0; n < words.size(); n += 2) std::swap(words[n], words[n + 1]);
+    const auto first = words.begin() + static_cast<std::ptrdiff_t>(lead);
+    return {first, first + static_cast<std::ptrdiff_t>(count)};
+  }
   std::vector<std::byte> bytes(count);
   if (pixels_.coding == PixelCoding::deflated) {
     inflate(pixels_.at + offset, bytes);
@@ -118,6 +127,7 @@ SegmentationPixels find_pixels(const std::filesystem::path& path, const internal
   const internal::InputFile file(path);
   pixels.at = start.deflated ? element.value_at : start.at + element.value_at;
   pixels.big_endian = DcmXfer(start.transfer_syntax.c_str()).getPixelDataByteOrder() == EBO_BigEndian;
+  pixels.swapped_words = pixels.big_endian && format.bits_allocated <= 8 && element.vr == "OW";
   if (element.length == internal::PixelElement::undefined_length) {
     if (!internal::can_decode(start.transfer_syntax)) {
       throw DicomError(internal::why_not_decoded(start.transfer_syntax));

@@ -24,7 +24,8 @@ struct SegmentationPixels {
   internal::PixelFormat format;  ///< bits_allocated 1, 8 or 16
   internal::PixelCoding coding = internal::PixelCoding::native;
   bool big_endian = false;
-  std::uint64_t at = 0;  ///< first byte of the pixels, in the file or in the inflated dataset
+  bool swapped_words = false;  ///< bytes lie in 16-bit words of the other byte order
+  std::uint64_t at = 0;        ///< first byte of the pixels, in the file or in the inflated dataset
   std::vector<std::vector<internal::Fragment>> fragments;
 };
 

@@ -159,9 +159,15 @@ TEST(SegmentationLaws, VoxelsAreTheSameInEveryUncompressedTransferSyntax) {
   };
   for (const Form& form :
        {Form{"BINARY", 1, 1}, Form{"LABELMAP", 8, 1}, Form{"LABELMAP", 16, 1}, Form{"FRACTIONAL", 8, 200}}) {
-    for (const E_TransferSyntax syntax :
-         {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit, EXS_DeflatedLittleEndianExplicit}) {
-      SCOPED_TRACE(form.type + " " + std::to_string(form.bits) + ", " + DcmXfer(syntax).getXferName());
+    for (const auto& [syntax, in_words] : {std::pair{EXS_LittleEndianExplicit, false},
+                                           {EXS_LittleEndianExplicit, true},
+                                           {EXS_LittleEndianImplicit, false},
+                                           {EXS_DeflatedLittleEndianExplicit, false},
+                                           {EXS_BigEndianExplicit, false},
+                                           {EXS_BigEndianExplicit, true}}) {
+      if (form.bits == 16 && syntax == EXS_BigEndianExplicit && !in_words) continue;  // words have no bytes
+      SCOPED_TRACE(form.type + " " + std::to_string(form.bits) + ", " + DcmXfer(syntax).getXferName() +
+                   (in_words ? ", OW" : ""));
       RandomNumbers random(11);
       Places places{{1, 0, 0}, {0, 1, 0}, {}};
       Sum sum;
@@ -174,6 +180,19 @@ TEST(SegmentationLaws, VoxelsAreTheSameInEveryUncompressedTransferSyntax) {
           if (values.back() != 0) sum.add(places.of(places.first.size() - 1, at % law_columns, at / law_columns));
         }
         segmentation.frames.push_back({1, 2.0 * slice, [values](int i, int j) { return values[index_of(i, j)]; }});
+      }
+      // PS3.5 7.3 and 8.2: in 16-bit words the first byte is the lower one; the writer puts words in the file's order.
+      if (in_words) {
+        segmentation.edit = [](DcmDataset& dataset) {
+          const Uint8* bytes = nullptr;
+          unsigned long count = 0;
+          succeed(dataset.findAndGetUint8Array(DCM_PixelData, bytes, &count));
+          std::vector<Uint16> words;
+          for (unsigned long n = 0; n < count; n += 2)
+            words.push_back(static_cast<Uint16>(bytes[n] | bytes[n + 1] << 8));
+          succeed(
+              dataset.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())));
+        };
       }
       const TestFolder folder;
       write(segmentation, folder / "seg.dcm");
