@@ -8,7 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numeric>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "io/dicom/dicom_value.h"
 #include "io/dicom/file_header.h"
@@ -61,7 +65,9 @@ PlacedFrame placed_frame(DcmItem& own, DcmItem* shared, SegmentationType type) {
   PlacedFrame frame{.placement = *placement};
   frame.spacing = distance_in(measures, DCM_SpacingBetweenSlices);
   frame.thickness = distance_in(measures, DCM_SliceThickness);
-  const auto in_stack = numbers_in(group_of(own, shared, DCM_FrameContentSequence), DCM_InStackPositionNumber);
+  DcmItem* content = group_of(own, shared, DCM_FrameContentSequence);
+  const auto in_stack = numbers_in(content, DCM_InStackPositionNumber);
+  if (content != nullptr) frame.stack = internal::text_of(*content, DCM_StackID);
   if (!in_stack.empty()) frame.in_stack = static_cast<int>(std::clamp(in_stack.front(), -1.0, 1e6));
   if (type != SegmentationType::label_map) {
     const auto number =
@@ -128,15 +134,28 @@ FrameSlices slices_of(const std::vector<PlacedFrame>& frames, const Vec3& normal
 
 namespace {
 
-/// How many slices a frame lies after one of its segment on the slice before, as both are numbered; 0 if they are not.
+/// Whether frames are numbered by their slices. Some programs count the frames: then no number is there twice, though
+/// slices have several frames.
+bool are_slices_numbered(const FrameSlices& slices, const std::vector<PlacedFrame>& frames) {
+  std::set<std::pair<std::string, int>> numbers;
+  for (const PlacedFrame& frame : frames) {
+    if (frame.in_stack && !numbers.emplace(frame.stack, *frame.in_stack).second) return true;
+  }
+  return std::ranges::all_of(slices.frames, [](const auto& of_slice) { return of_slice.size() < 2; });
+}
+
+/// How many slices a frame lies after one of its segment and stack on the slice before, as both are numbered; 0 if they
+/// are not.
 int numbered_steps(const std::vector<PlacedFrame>& frames, const std::vector<std::size_t>& before,
                    const std::vector<std::size_t>& after) {
-  for (const std::size_t a : before) {
-    for (const std::size_t b : after) {
-      const PlacedFrame &one = frames[a], &other = frames[b];
-      if (one.segment == other.segment && one.in_stack && other.in_stack)
-        return std::abs(*other.in_stack - *one.in_stack);
-    }
+  std::map<std::pair<std::string, int>, int> number;  // by stack and segment
+  for (const std::size_t n : before) {
+    const PlacedFrame& frame = frames[n];
+    if (frame.in_stack) number.try_emplace({frame.stack, frame.segment}, *frame.in_stack);
+  }
+  for (const std::size_t n : after) {
+    const auto found = number.find({frames[n].stack, frames[n].segment});
+    if (found != number.end() && frames[n].in_stack) return std::abs(*frames[n].in_stack - found->second);
   }
   return 0;
 }
@@ -153,13 +172,20 @@ std::vector<int> steps_between(const FrameSlices& slices, const std::vector<Plac
     least = least > 0 ? std::min(least, step) : step;
   }
   constexpr double tolerance = 0.05;
-  constexpr double most = 4096;  // slices between two: more is no lattice
+  constexpr double most = 4096, most_of_all = 16384;  // slices between two, and together: more is no lattice
+  double total = 1;
+  const Placement& pixels = frames.front().placement;
+  const double thinnest = 0.1 * std::min(pixels.spacing_i, pixels.spacing_j);  // mm: no slice is that flat
+  const bool has_numbers = !(spacing > 0) && are_slices_numbered(slices, frames);
   for (std::size_t k = 0; k < count; ++k) {
-    const int numbered = spacing > 0 ? 0 : numbered_steps(frames, slices.frames[k], slices.frames[k + 1]);
-    const double in_steps = (slices.height[k + 1] - slices.height[k]) / least;
+    const double apart = slices.height[k + 1] - slices.height[k];
+    int numbered = has_numbers ? numbered_steps(frames, slices.frames[k], slices.frames[k + 1]) : 0;
+    if (numbered * thinnest > apart) numbered = 0;
+    const double in_steps = apart / least;
     const double whole = numbered > 0 ? numbered : std::round(in_steps);
     const bool is_whole = numbered > 0 || std::abs(in_steps - whole) <= tolerance * whole;
-    if (!is_whole || whole > most) return std::vector<int>(count, 1);
+    total += whole;
+    if (!is_whole || whole > most || total > most_of_all) return std::vector<int>(count, 1);
     steps[k] = static_cast<int>(whole);
   }
   return steps;

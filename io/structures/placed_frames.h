@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/dicom/stacking.h"
@@ -15,7 +16,8 @@ namespace palpate::io {
 
 struct PlacedFrame {
   int segment = 0;
-  std::optional<int> in_stack;  ///< InStackPositionNumber
+  std::string stack;            ///< StackID
+  std::optional<int> in_stack;  ///< InStackPositionNumber, in that stack
   internal::Placement placement;
   double spacing = 0;    ///< SpacingBetweenSlices, mm; 0 where it is not said
   double thickness = 0;  ///< SliceThickness, mm; 0 where it is not said
@@ -38,8 +40,8 @@ struct FrameSlices {
 FrameSlices slices_of(const std::vector<PlacedFrame>& frames, const Vec3& normal);
 
 /// How many steps of the lattice lie from each slice with a frame to the next: empty slices are left out. Without a
-/// spacing, frames that are numbered say so; else all distances are multiples of the least one. All 1 if none of it
-/// fits.
+/// spacing, frames whose slices are numbered say so; else all distances are multiples of the least one. All 1 if none
+/// of it fits.
 std::vector<int> steps_between(const FrameSlices& slices, const std::vector<PlacedFrame>& frames);
 
 }  // namespace palpate::io
