@@ -19,8 +19,7 @@ std::uint8_t in_box(const Mask& mask, const glm::ivec3& voxel) {
 }  // namespace
 
 Vec3 slice_position(const Geometry& geometry, int k) {
-  const int held = std::clamp(k, 0, geometry.dimensions.z - 1);
-  return geometry.slice_positions[static_cast<std::size_t>(held)] + static_cast<double>(k - held) * geometry.step;
+  return geometry.to_patient({0, 0, k});
 }
 
 std::uint8_t ContinuedMask::occupancy(const glm::ivec3& voxel) const {

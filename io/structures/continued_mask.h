@@ -7,7 +7,7 @@
 
 namespace palpate::io {
 
-/// The position of a slice's first voxel, mm. Beyond the lattice the slices go on by the mean step.
+/// The position of a slice's first voxel, mm. Beyond the lattice the slices go on by the nearest step.
 Vec3 slice_position(const Geometry& geometry, int k);
 
 /// A mask with the voxels beyond its lattice. Programs crop the lattice to the structure, so there it is empty, but not

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "io/structures/mask_measures.h"
+
 namespace palpate::io {
 namespace {
 
@@ -44,8 +46,8 @@ class Around {
 };
 
 /// Where it is half, going on as it falls: toward the neighbor on the other side, else as on both sides of the voxel.
-/// NaN if no neighbor is on the other side.
-double distance_to_half(const Around& around, const Vec3& size) {
+/// NaN if no neighbor is on the other side. `to_slices`: how far the slices below and above lie, mm.
+double distance_to_half(const Around& around, const Vec3& size, const std::array<double, 2>& to_slices) {
   const double above = around.at(0, 0, 0) - 0.5;
   double steep = 0;  // squared, per mm
   bool is_beside_edge = false;
@@ -56,7 +58,8 @@ double distance_to_half(const Around& around, const Vec3& size) {
       to[axis] = side;
       const double there = around.at(to.x, to.y, to.z) - 0.5;
       across += 0.5 * side * there / size[axis];
-      if ((there >= 0) != (above >= 0)) most = std::max(most, std::abs(above - there) / size[axis]);
+      const double apart = axis == 2 ? to_slices.at(side < 0 ? 0 : 1) : size[axis];
+      if ((there >= 0) != (above >= 0)) most = std::max(most, std::abs(above - there) / apart);
     }
     is_beside_edge = is_beside_edge || most > 0;
     steep += most > 0 ? most * most : across * across;
@@ -94,9 +97,10 @@ float edge_distance(const ContinuedMask& continued, int i, int j, int k) {
   if (share < sliver || share > 1 - sliver) return not_told;
   const Around around(continued, i, j, k);
   const Geometry& geometry = continued.mask().geometry;
-  const Vec3 size(geometry.spacing_i, geometry.spacing_j, std::max(geometry.slice_spacing(), 1e-3));
+  const std::array to_slices{std::max(step_after(geometry, k - 1), 1e-3), std::max(step_after(geometry, k), 1e-3)};
+  const Vec3 size(geometry.spacing_i, geometry.spacing_j, (to_slices[0] + to_slices[1]) / 2);
   const bool is_probability = continued.mask().fractions == Mask::Fractions::probability;
-  if (is_probability) return static_cast<float>(distance_to_half(around, size));
+  if (is_probability) return static_cast<float>(distance_to_half(around, size, to_slices));
   const Vec3 slope = around.slope(size);
   if (glm::length(slope * size) < 0.1) return not_told;  // thinner than a voxel: no one edge
   return static_cast<float>(plane_distance(size, slope, share));

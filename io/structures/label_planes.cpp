@@ -5,9 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <vector>
 
+#include "io/quantile.h"
 #include "io/structures/continued_mask.h"
 #include "io/structures/fraction_edges.h"
 #include "io/structures/scan_slices.h"
@@ -20,19 +22,21 @@ constexpr int finest = 8;  // nodes for one step between voxels, at most
 /// Where the mask's slices lie on the lattice: node of a voxel = first + voxel * per_voxel, per axis.
 struct Layout {
   glm::ivec3 per_voxel{1};
-  std::vector<int> slice_node;          // of every slice of the box and of those beside it, along the third axis
+  std::vector<int> slice;               // those of the box and those beside it, ascending
+  std::vector<int> slice_node;          // of each, along the third axis
   std::vector<glm::ivec2> slice_first;  // node of pixel 0, 0 of the whole lattice
-  int first_slice = 0;                  // of the whole lattice
   glm::ivec2 low{0}, high{0};           // pixels around the box that are known, both ends included
 };
 
-/// mm: the least step between slices along their normal.
+/// mm: the least step between slices along their normal. Slices that nearly lie on each other do not count: they would
+/// ask for far too many nodes.
 double least_step(const std::vector<double>& heights, double otherwise) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
-    least = std::min(least, heights[k + 1] - heights[k]);
-  }
-  return std::isfinite(least) && least > 1e-6 ? least : otherwise;
+  std::vector<double> steps;
+  for (std::size_t k = 0; k + 1 < heights.size(); ++k) steps.push_back(heights[k + 1] - heights[k]);
+  if (steps.empty()) return otherwise;
+  constexpr double nearly = 0.1;  // of the typical step
+  const double least = std::max(*std::ranges::min_element(steps), nearly * quantile(steps, 0.5));
+  return least > 1e-6 ? least : otherwise;
 }
 
 /// Squared distances along a row of nodes to the nearest seed; `far` if there is none.
@@ -128,25 +132,60 @@ int most_of(const glm::ivec3& parts) {
   return std::max({parts.x, parts.y, parts.z});
 }
 
+/// The next slice on one side of it. Beyond the lattice none is nearer than the least step.
+int next_slice(const Slices& slices, int k, int side) {
+  const bool is_beyond = side < 0 ? k <= 0 : k >= static_cast<int>(slices.heights.size()) - 1;
+  if (!is_beyond) return k + side;
+  const double step = std::abs(slices.height_of(k + side) - slices.height_of(k));
+  return k + side * std::max(1, static_cast<int>(std::lround(slices.step / std::max(step, 1e-6))));
+}
+
+/// The slices of the box, and those beside it as far as the band reaches and one more.
+std::vector<int> slices_around(const Mask& mask, const Slices& slices, double band_mm) {
+  std::vector<int> all(static_cast<std::size_t>(mask.size.z));
+  std::iota(all.begin(), all.end(), mask.low.z);
+  for (const int side : {-1, 1}) {
+    const int end = side < 0 ? mask.low.z : mask.low.z + mask.size.z - 1;
+    int k = end;
+    bool is_last = false;
+    // At most so many: slices may lie on each other.
+    const double most = 2 * std::ceil(band_mm / slices.step) + static_cast<double>(slices.heights.size()) + 1;
+    for (double n = 0; n < most && !is_last; ++n) {
+      is_last = std::abs(slices.height_of(k) - slices.height_of(end)) >= band_mm;
+      k = next_slice(slices, k, side);
+      all.push_back(k);
+    }
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+/// mm: the largest step between slices of the box, or from one of them to the next.
+double largest_step(const Mask& mask, const Slices& slices) {
+  double largest = slices.step;
+  for (int k = mask.low.z - 1; k < mask.low.z + mask.size.z; ++k) {
+    largest = std::max(largest, slices.height_of(k + 1) - slices.height_of(k));
+  }
+  return largest;
+}
+
 /// Places the box and its known surroundings on the lattice, and determines the lattice's size and origin.
 Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_voxel, double band_mm,
                NodeLattice& lattice) {
   const Geometry& geometry = slices.geometry;
-  const glm::ivec3 around = glm::ivec3(glm::ceil(Vec3(band_mm) / slices.voxel())) + 1;
-  const glm::ivec3 low = mask.low - around;
-  const glm::ivec3 high = mask.low + mask.size - 1 + around;
+  const glm::ivec2 around = glm::ivec2(glm::ceil(glm::dvec2(band_mm) / glm::dvec2(slices.voxel()))) + 1;
   Layout layout;
   layout.per_voxel = per_voxel;
-  layout.first_slice = low.z;
-  layout.low = glm::ivec2(low);
-  layout.high = glm::ivec2(high);
+  layout.slice = slices_around(mask, slices, band_mm);
+  layout.low = glm::ivec2(mask.low) - around;
+  layout.high = glm::ivec2(mask.low + mask.size) - 1 + around;
   // The first slice of the lattice is a node, and so are all that lie whole steps from it.
-  const double below = slices.height_of(low.z) / lattice.spacing.z;
+  const double below = slices.height_of(layout.slice.front()) / lattice.spacing.z;
   const double base = (has_whole_steps(slices.geometry) ? std::round(below) : below) * lattice.spacing.z;
   glm::dvec2 least_slide(std::numeric_limits<double>::infinity());
   glm::dvec2 most_slide(-std::numeric_limits<double>::infinity());
   std::vector<glm::dvec2> slides;
-  for (int k = low.z; k <= high.z; ++k) {
+  for (const int k : layout.slice) {
     const Vec3 slide = slices.slide_of(slices.position_of(k));
     const glm::dvec2 in_nodes(glm::dot(slide, geometry.direction_i) / lattice.spacing.x,
                               glm::dot(slide, slices.across) / lattice.spacing.y);
@@ -179,7 +218,7 @@ std::vector<std::uint8_t> seed_plane(const ContinuedMask& mask, const Layout& la
   std::vector<std::uint8_t> seeds(count, unknown);
   const bool has_fractions = mask.mask().fractions != Mask::Fractions::none;
   if (has_fractions) distances.known.assign(count, std::numeric_limits<float>::quiet_NaN());
-  const int k = layout.first_slice + static_cast<int>(plane);
+  const int k = layout.slice[plane];
   for (int j = layout.low.y; j <= layout.high.y; ++j) {
     const int row = layout.slice_first[plane].y + j * layout.per_voxel.y;
     for (int i = layout.low.x; i <= layout.high.x; ++i) {
@@ -223,7 +262,7 @@ OutlinePlanes planes_of(const Mask& mask, double reach_mm, const Geometry* scan)
   NodeLattice& lattice = planes.lattice;
   lattice.axes = glm::dmat3(mask.geometry.direction_i, slices.across, slices.normal);
   lattice.spacing = slices.voxel() / Vec3(per_voxel);
-  planes.play_mm = glm::length(slices.voxel());
+  planes.play_mm = glm::length(Vec3(glm::dvec2(slices.voxel()), largest_step(mask, slices)));
   planes.band_mm = band_for(reach_mm, lattice, planes.play_mm);
   const Layout layout = lay_out(mask, slices, per_voxel, planes.band_mm, lattice);
   planes.node = layout.slice_node;

@@ -18,6 +18,7 @@ struct Mask {
   static constexpr std::uint8_t half = 127;
 
   Geometry geometry;                    ///< of the whole lattice
+  bool has_no_thickness = false;        ///< one slice, and the file does not say how thick it is
   std::vector<int> assumed_slices;      ///< that the file does not hold, ascending: they are taken to be there, empty
   glm::ivec3 low{0};                    ///< first voxel of the box
   glm::ivec3 size{0};                   ///< voxels of the box

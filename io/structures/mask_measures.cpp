@@ -18,18 +18,20 @@ struct Slab {
   double off = 0;        // mm: its middle from the slice, along the normal
 };
 
-Slab slab_of(const Geometry& geometry, const Vec3& normal, int k) {
-  const int last = geometry.dimensions.z - 1;
-  if (last < 1) return {geometry.slice_spacing(), 0};
-  const auto step_after = [&](int slice) {
-    const auto n = static_cast<std::size_t>(std::clamp(slice, 0, last - 1));
-    return glm::dot(geometry.slice_positions[n + 1] - geometry.slice_positions[n], normal);
-  };
-  const double below = step_after(k - 1) / 2, above = step_after(k) / 2;
+Slab slab_of(const Geometry& geometry, int k) {
+  const double below = step_after(geometry, k - 1) / 2, above = step_after(geometry, k) / 2;
   return {below + above, (above - below) / 2};
 }
 
 }  // namespace
+
+double step_after(const Geometry& geometry, int k) {
+  const int last = static_cast<int>(geometry.slice_positions.size()) - 1;
+  if (last < 1) return geometry.slice_spacing();
+  const auto n = static_cast<std::size_t>(std::clamp(k, 0, last - 1));
+  const Vec3 normal = glm::normalize(glm::cross(geometry.direction_i, geometry.direction_j));
+  return glm::dot(geometry.slice_positions[n + 1] - geometry.slice_positions[n], normal);
+}
 
 StructureMeasures measures_of(const Mask& mask) {
   const Geometry& geometry = mask.geometry;
@@ -41,7 +43,7 @@ StructureMeasures measures_of(const Mask& mask) {
   Vec3 low(std::numeric_limits<double>::infinity());
   Vec3 high(-std::numeric_limits<double>::infinity());
   for (int k = 0; k < mask.size.z; ++k) {
-    const Slab slab = slab_of(geometry, normal, mask.low.z + k);
+    const Slab slab = slab_of(geometry, mask.low.z + k);
     for (int j = 0; j < mask.size.y; ++j) {
       for (int i = 0; i < mask.size.x; ++i) {
         if (mask.occupancy[mask.offset(i, j, k)] >= Mask::half) {

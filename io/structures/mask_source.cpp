@@ -1,6 +1,9 @@
 #include "io/structures/mask_source.h"
 
+#include <glm/geometric.hpp>
+
 #include "io/structures/continued_mask.h"
+#include "io/structures/contour_planes.h"
 #include "io/structures/mask_measures.h"
 #include "io/structures/scan_slices.h"
 
@@ -28,6 +31,10 @@ std::shared_ptr<const DistanceField> MaskSource::distance(int number, const Dist
 Mask MaskSource::moved_mask(int number, const RigidMotion& motion, const Geometry* scan, double around_mm) const {
   Mask mask = mask_of(number);
   move(motion, mask.geometry);
+  if (scan != nullptr && mask.has_no_thickness) {
+    const Vec3 normal = glm::normalize(glm::cross(mask.geometry.direction_i, mask.geometry.direction_j));
+    mask.geometry.step = thickness_of_voxels(*scan, normal) * normal;
+  }
   if (scan != nullptr) take_slices_of(*scan, around_mm, mask);
   return mask;
 }

@@ -150,6 +150,7 @@ class SegmentationSource final : public MaskSource {
     mask.geometry = geometry_;
     mask.fractions = fractions_of(type_);
     mask.assumed_slices = assumed_slices_;
+    mask.has_no_thickness = has_no_thickness_;
     if (cuts.empty()) {
       return mask;
     }
