@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -83,9 +82,15 @@ struct Slices {
   Vec3 normal, across;          // unit vectors: of the planes, and along their columns
   std::vector<double> heights;  // along the normal, mm
   double step = 1;              // mm: the least between two heights
+  bool is_whole = true;         // all steps are multiples of the least: then all slices are nodes
 
   Vec3 slide_of(const Vec3& position) const { return position - geometry.slice_positions.front(); }
-  Vec3 position_of(int k) const { return slice_position(geometry, k); }
+  /// Slices that are no nodes go on by the mean step: where they begin decides how near they lie to nodes.
+  Vec3 position_of(int k) const {
+    if (is_whole) return slice_position(geometry, k);
+    const int held = std::clamp(k, 0, geometry.dimensions.z - 1);
+    return geometry.slice_positions[static_cast<std::size_t>(held)] + static_cast<double>(k - held) * geometry.step;
+  }
   double height_of(int k) const { return glm::dot(slide_of(position_of(k)), normal); }
   Vec3 voxel() const { return {geometry.spacing_i, geometry.spacing_j, step}; }
 };
@@ -97,6 +102,7 @@ Slices slices_of(const Geometry& geometry) {
   for (const Vec3& position : geometry.slice_positions) {
     slices.heights.push_back(glm::dot(slices.slide_of(position), slices.normal));
   }
+  slices.is_whole = has_whole_steps(geometry);
   slices.step = least_step(slices.heights, std::max(glm::dot(geometry.step, slices.normal), 0.01));
   return slices;
 }
@@ -132,37 +138,27 @@ int most_of(const glm::ivec3& parts) {
   return std::max({parts.x, parts.y, parts.z});
 }
 
-/// The next slice on one side of it. Beyond the lattice none is nearer than the least step.
-int next_slice(const Slices& slices, int k, int side) {
-  const bool is_beyond = side < 0 ? k <= 0 : k >= static_cast<int>(slices.heights.size()) - 1;
-  if (!is_beyond) return k + side;
-  const double step = std::abs(slices.height_of(k + side) - slices.height_of(k));
-  return k + side * std::max(1, static_cast<int>(std::lround(slices.step / std::max(step, 1e-6))));
-}
-
 /// The slices of the box, and those beside it as far as the band reaches and one more.
 std::vector<int> slices_around(const Mask& mask, const Slices& slices, double band_mm) {
-  std::vector<int> all(static_cast<std::size_t>(mask.size.z));
-  std::iota(all.begin(), all.end(), mask.low.z);
-  for (const int side : {-1, 1}) {
-    const int end = side < 0 ? mask.low.z : mask.low.z + mask.size.z - 1;
-    int k = end;
-    bool is_last = false;
-    // At most so many: slices may lie on each other.
-    const double most = 2 * std::ceil(band_mm / slices.step) + static_cast<double>(slices.heights.size()) + 1;
-    for (double n = 0; n < most && !is_last; ++n) {
-      is_last = std::abs(slices.height_of(k) - slices.height_of(end)) >= band_mm;
-      k = next_slice(slices, k, side);
-      all.push_back(k);
-    }
-  }
-  std::ranges::sort(all);
+  const int most = static_cast<int>(std::ceil(band_mm / slices.step)) + 1;
+  const auto count = [&](int end, int side) {
+    int n = 1;
+    while (n < most &&
+           (!slices.is_whole || std::abs(slices.height_of(end + side * (n - 1)) - slices.height_of(end)) < band_mm))
+      ++n;
+    return n;
+  };
+  const int high = mask.low.z + mask.size.z - 1;
+  std::vector<int> all;
+  for (int k = mask.low.z - count(mask.low.z, -1); k <= high + count(high, 1); ++k) all.push_back(k);
   return all;
 }
 
-/// mm: the largest step between slices of the box, or from one of them to the next.
+/// mm: the largest step between slices of the box, or from one of them to the next. The least one where slices are no
+/// nodes.
 double largest_step(const Mask& mask, const Slices& slices) {
   double largest = slices.step;
+  if (!slices.is_whole) return largest;
   for (int k = mask.low.z - 1; k < mask.low.z + mask.size.z; ++k) {
     largest = std::max(largest, slices.height_of(k + 1) - slices.height_of(k));
   }
@@ -181,7 +177,7 @@ Layout lay_out(const Mask& mask, const Slices& slices, const glm::ivec3& per_vox
   layout.high = glm::ivec2(mask.low + mask.size) - 1 + around;
   // The first slice of the lattice is a node, and so are all that lie whole steps from it.
   const double below = slices.height_of(layout.slice.front()) / lattice.spacing.z;
-  const double base = (has_whole_steps(slices.geometry) ? std::round(below) : below) * lattice.spacing.z;
+  const double base = (slices.is_whole ? std::round(below) : below) * lattice.spacing.z;
   glm::dvec2 least_slide(std::numeric_limits<double>::infinity());
   glm::dvec2 most_slide(-std::numeric_limits<double>::infinity());
   std::vector<glm::dvec2> slides;

@@ -120,9 +120,8 @@ void take_slices_of(const Geometry& scan, double around_mm, Mask& mask) {
   std::vector<std::optional<int>> to(geometry.slice_positions.size());
   std::size_t next = 0;  // of `own`
   for (std::size_t n = 0; n < slices->at.size(); ++n) {
-    const bool is_near = slices->height[n] >= slices->height[own.front().of_scan] - around_mm &&
-                         slices->height[n] <= slices->height[own.back().of_scan] + around_mm;
-    if (!is_near && n + 1 != own.front().of_scan && n != own.back().of_scan + 1) continue;
+    if (slices->height[n] < slices->height[own.front().of_scan] - around_mm) continue;
+    if (slices->height[n] > slices->height[own.back().of_scan] + around_mm) break;
     if (next < own.size() && own[next].of_scan == n) {
       to[own[next].of_mask] = static_cast<int>(positions.size());
       positions.push_back(geometry.slice_positions[own[next++].of_mask]);

@@ -206,6 +206,7 @@ TEST(UnevenMasksLaws, ABodyEndsBetweenItsSlicesAndTheScansNextOnes) {
           mask.geometry.slice_positions.assign(from, from + count);
           mask.geometry.dimensions.z = mask.size.z = count;
           mask.geometry.step = count == 1 ? Vec3(0, 0, said_mm) : mask.geometry.slice_positions[1] - *from;
+          mask.has_no_thickness = count == 1;
           mask.low = {2, 2, 0};
           mask.size.x = mask.size.y = 10;
           mask.occupancy.assign(static_cast<std::size_t>(100 * count), Mask::full);
