@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/archive/archive.h"
+#include "io/archive/testing/says.h"
 
 namespace palpate::io {
 namespace {
@@ -93,6 +94,38 @@ TEST(SettingsLimits, TlsNeedsWhatItUses) {
         !archive.tls.used || ((bits & 2) != 0 && has_certificate == has_key && (archive.uses_get || has_certificate));
     EXPECT_EQ(may_be_set(archive), fits) << bits;
   }
+}
+
+TEST(ArchiveSettings, ThatCannotBeAreRefused) {
+  const Archive archive{.name = "a", .host = "h", .port = 104, .called = "CALLED", .calling = "US"};
+  EXPECT_NO_THROW(check(archive));
+  const auto refused = [&](const char* message, auto change) {
+    Archive wrong = archive;
+    change(wrong);
+    try {
+      check(wrong);
+      ADD_FAILURE() << "not refused: " << message;
+    } catch (const ArchiveError& error) {
+      EXPECT_TRUE(testing::says(error.what(), message));
+      EXPECT_TRUE(std::string(error.what()).starts_with("archive a: ")) << error.what();
+    }
+  };
+  refused("--host has to be a machine's name or address", [](Archive& a) { a.host = ""; });
+  refused("a port is a number from 1 to 65535", [](Archive& a) { a.port = 65536; });
+  refused("a port is a number from 1 to 65535", [](Archive& a) { a.listen_port = 0; });
+  refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.called = "LONGER THAN SIXTEEN"; });
+  refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.calling = "  "; });
+  refused("an AE title has 1 to 16 letters, digits or signs", [](Archive& a) { a.calling = "A\\B"; });
+  refused("the time to wait has to be 1 to 3600 s", [](Archive& a) { a.silence_s = 0; });
+  refused("TLS needs --tls-ca, the certificate of the authority that signed the archive's certificate",
+          [](Archive& a) { a.tls.used = true; });
+  refused("C-MOVE with TLS needs --tls-certificate and --tls-key, since the archive then connects to us; or set --get",
+          [](Archive& a) {
+            a.tls = {true, "ca.pem", "", "", ""};
+          });
+  refused("--tls-certificate and --tls-key go together", [](Archive& a) {
+    a.tls = {true, "ca.pem", "own.pem", "", ""};
+  });
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -15,79 +13,16 @@
 #include <random>
 
 #include "io/fields/boundary_uncertainty.h"
+#include "io/testing/formula_boundary.h"
 
 namespace palpate::io {
 namespace {
 
-/// Values by a formula, at places by another; the gradient's direction is the normal's, its length means nothing.
-class FormulaSource final : public FieldSource {
- public:
-  std::function<double(const Vec3&)> value;
-  std::function<bool(const Vec3&)> inside = [](const Vec3&) { return true; };
-  Vec3 gradient{0};
-
-  FieldSet available() const noexcept override { return FieldSet::value | FieldSet::gradient; }
-  Sample sample(const Vec3& at, FieldSet wanted) const noexcept override {
-    Sample sample;
-    sample.inside = inside(at);
-    if (!sample.inside) return sample;
-    sample.value = value(at);
-    if (contains(wanted, FieldSet::gradient)) sample.gradient = gradient;
-    return sample;
-  }
-};
-
-/// The same number for the same place, and another one for any other: even between 0 and 1.
-double hashed(const Vec3& at) {
-  std::uint64_t bits = 0x9E3779B97F4A7C15;
-  for (int axis = 0; axis < 3; ++axis) {
-    bits = (bits ^ static_cast<std::uint64_t>(std::llround(at[axis] * 1e6))) * 0xBF58476D1CE4E5B9;
-    bits ^= bits >> 29;
-  }
-  return static_cast<double>(bits >> 11) * 0x1p-53;
-}
-
-/// Of a standard deviation of one.
-double gaussian_at(const Vec3& at) {
-  const double u = hashed(at), v = hashed(at + Vec3(1e4, 0, 0));
-  return std::sqrt(-2 * std::log(u + 1e-12)) * std::cos(2 * std::numbers::pi * v);
-}
-
-/// A rise with a slope of one in the middle, from flat to flat: what a Gaussian blur makes of a step.
-double blurred_step(double way_mm, double sigma_mm) {
-  return std::sqrt(std::numbers::pi / 2) * sigma_mm * std::erf(way_mm / (std::numbers::sqrt2 * sigma_mm));
-}
-
-struct TiltedBoundary {
-  Geometry geometry;
-  Vec3 place{0}, normal{0};
-  glm::dmat3 tangent{1};  // projects onto the boundary's plane
-};
-
-Vec3 any_unit(std::mt19937& random) {
-  std::normal_distribution<double> any;
-  const double x = any(random), y = any(random), z = any(random);
-  return glm::normalize(Vec3(x, y, z));
-}
-
-TiltedBoundary tilted_boundary(unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> mm(0.4, 3);
-  TiltedBoundary made;
-  Geometry& g = made.geometry;
-  g.dimensions = {100, 100, 100};
-  g.direction_i = any_unit(random);
-  g.direction_j = glm::normalize(glm::cross(any_unit(random), g.direction_i));
-  g.spacing_i = mm(random);
-  g.spacing_j = mm(random);
-  const double apart = mm(random), slide = mm(random);
-  g.step = apart * glm::cross(g.direction_i, g.direction_j) + slide * g.direction_j - 0.5 * slide * g.direction_i;
-  for (int k = 0; k < g.dimensions.z; ++k) g.slice_positions.push_back(static_cast<double>(k) * g.step);
-  made.place = g.to_patient({50, 50, 50});
-  made.normal = any_unit(random);
-  made.tangent = glm::dmat3(1) - glm::outerProduct(made.normal, made.normal);
-  return made;
-}
+using testing::any_unit;
+using testing::blurred_step;
+using testing::FormulaSource;
+using testing::tilted_boundary;
+using testing::TiltedBoundary;
 
 double trace(const glm::dmat3& m) {
   return m[0][0] + m[1][1] + m[2][2];
@@ -152,33 +87,6 @@ TEST(BoundaryUncertaintyLaws, CurvatureShiftsByTheVarianceOfTheBlurAlongEachTang
   }
 }
 
-/// Noise of a known deviation, on a plane that is much steeper along the boundary than the noise: a wrong normal.
-TEST(BoundaryUncertaintyLaws, NoiseIsItsStandardDeviationWhateverTheTilt) {
-  double squares = 0, slopes = 0;
-  constexpr int places = 600;
-  const double sigma = 12, slope = 500;
-  for (unsigned seed = 0; seed < places; ++seed) {
-    const TiltedBoundary b = tilted_boundary(seed);
-    std::mt19937 random(seed + 1000);
-    const Vec3 tilt = 40.0 * (b.tangent * any_unit(random));
-    FormulaSource source;
-    source.gradient = b.normal;
-    source.value = [&](const Vec3& at) {
-      return slope * blurred_step(glm::dot(b.normal, at - b.place), 2) + glm::dot(tilt, at) + sigma * gaussian_at(at);
-    };
-    const BoundaryUncertainty known = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
-    squares += known.noise * known.noise / places;
-    slopes += known.slope / places;
-    EXPECT_DOUBLE_EQ(known.noise_mm, known.noise / known.slope);
-    // Nothing makes it less than noise and phase alone.
-    EXPECT_GT(known.two_sigma_mm,
-              1.64 * std::max(known.noise_mm, known.sampling_mm) + std::abs(known.curvature_mm + known.level_mm));
-  }
-  // Those beyond three deviations, as the pairs themselves tell them, are left out: that takes a little.
-  EXPECT_NEAR(std::sqrt(squares), 0.975 * sigma, 0.012 * sigma);
-  EXPECT_NEAR(slopes, slope, 0.05 * slope);
-}
-
 /// A plate that is thinner than the blur does not reach its value, and what lies behind it may be anything.
 TEST(BoundaryUncertaintyLaws, AThinPlatesEdgeIsWithinWhatIsStated) {
   int stated = 0, within = 0, thick_stated = 0, thick = 0;
@@ -210,31 +118,6 @@ TEST(BoundaryUncertaintyLaws, AThinPlatesEdgeIsWithinWhatIsStated) {
   EXPECT_GT(stated, 380);
   EXPECT_EQ(thick_stated, thick);
   EXPECT_LT(widest, 1.5);
-}
-
-/// A structure beside the boundary, in few of the pairs, is none of the noise.
-TEST(BoundaryUncertaintyLaws, WhatIsFarOutsideOfTheNoiseIsLeftOut) {
-  constexpr int places = 200;
-  double squares = 0;
-  for (unsigned seed = 0; seed < places; ++seed) {
-    const TiltedBoundary b = tilted_boundary(seed);
-    FormulaSource source;
-    source.gradient = b.normal;
-    const auto value = [&](const Vec3& at) { return 200 * glm::dot(b.normal, at - b.place) + 5 * gaussian_at(at); };
-    // A place of the nearest pair, which lies on the plane.
-    Vec3 nearest(1e9);
-    source.value = [&](const Vec3& at) {
-      const bool on_plane = std::abs(glm::dot(b.normal, at - b.place)) < 1e-9;
-      const double away = glm::distance(at, b.place);
-      if (on_plane && away > 1e-9 && away < glm::distance(nearest, b.place)) nearest = at;
-      return value(at);
-    };
-    uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
-    source.value = [&](const Vec3& at) { return value(at) + (glm::distance(at, nearest) < 1e-9 ? 400 : 0); };
-    const double noise = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place).noise;
-    squares += noise * noise / places;
-  }
-  EXPECT_LT(std::sqrt(squares), 9);  // it pulls at the tilt; counted itself, it would make 50
 }
 
 /// Phases of the axes, as measured, in voxels; they add as noise does.
@@ -272,38 +155,6 @@ TEST(BoundaryUncertaintyLaws, ThePhaseIsThatOfTheAxesThatTheBoundaryLiesAcross) 
       }
     }
   }
-}
-
-/// What lies outside the scan has a value of zero, which must not count: neither alone nor of a pair.
-TEST(BoundaryUncertaintyLaws, WhatLiesOutsideDoesNotCount) {
-  int known_at = 0, unknown_at = 0;
-  for (unsigned seed = 0; seed < 120; ++seed) {
-    const TiltedBoundary b = tilted_boundary(seed);
-    const double part = 0.1 * (seed % 8);  // outside
-    FormulaSource source;
-    source.gradient = b.normal;
-    source.value = [&](const Vec3& at) { return 1000 + 30 * blurred_step(glm::dot(b.normal, at - b.place), 3); };
-    source.inside = [&](const Vec3& at) { return at == b.place || hashed(at) >= part; };
-    const BoundaryUncertainty known = uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place);
-    if (std::isfinite(known.two_sigma_mm)) {
-      ++known_at;
-      EXPECT_NEAR(known.slope, 30, 0.6);
-      EXPECT_NEAR(known.noise, 0, 1e-6);
-      EXPECT_NEAR(known.curvature_mm, 0, 1e-6);
-      EXPECT_NEAR(known.level_mm, 0, 0.01);
-    } else {
-      ++unknown_at;
-    }
-    // Half of the 32 pairs have to be there.
-    if (part == 0) {
-      EXPECT_TRUE(std::isfinite(known.two_sigma_mm));
-    }
-    if (part > 0.65) {
-      EXPECT_FALSE(std::isfinite(known.two_sigma_mm));
-    }
-  }
-  EXPECT_GT(known_at, 30);
-  EXPECT_GT(unknown_at, 15);
 }
 
 /// Blur leaves the middle of two sides where it is; a boundary that is felt at another value lies beside it.
@@ -365,22 +216,6 @@ TEST(BoundaryUncertaintyLaws, ThePlateThatIsThinForItsBlurHasItsEdgeWhereItIs) {
       }
     }
   }
-}
-
-/// What rises on and on has no sides, and what noise alone makes is no boundary.
-TEST(BoundaryUncertaintyLaws, ARampAndNoiseAreNoBoundaries) {
-  int stated = 0, places = 0;
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    const TiltedBoundary b = tilted_boundary(seed);
-    FormulaSource source;
-    source.gradient = 3.0 * b.normal;
-    source.value = [&](const Vec3& at) { return 3 * glm::dot(b.normal, at - b.place); };
-    EXPECT_FALSE(std::isfinite(uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place).two_sigma_mm)) << seed;
-    source.value = [&](const Vec3& at) { return 12 * gaussian_at(at); };
-    stated += std::isfinite(uncertainty_at(source, b.geometry, ValueMethod::cubic, b.place).two_sigma_mm);
-    ++places;
-  }
-  EXPECT_LT(stated, places / 10);
 }
 
 /// Of a scanner whose blur nobody told: the edge itself shows it.

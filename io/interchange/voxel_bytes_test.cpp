@@ -34,20 +34,6 @@ std::string nrrd_in(const std::string& type, const std::string& encoding, const 
          encoding + "\n\n";
 }
 
-/// Why its voxels are not loaded; "loaded" if they are.
-std::string verdict_on_voxels(const std::string& bytes, const std::string& name = "a.nrrd") {
-  const TestFolder folder;
-  write_bytes(folder / name, bytes);
-  const Catalogue found = find_series(std::array{folder / name});
-  if (found.series.empty()) return found.skipped.at(0).reason;
-  try {
-    load(found.series[0]);
-  } catch (const DicomError& error) {
-    return error.what();
-  }
-  return "loaded";
-}
-
 /// RFC 1952, 2.2: a file may consist of several members, one behind the other.
 TEST(VoxelBytes, MayBePackedInParts) {
   const std::string data = voxels<std::int16_t>(), nifti = Nifti().sform(oblique()).bytes() + data;

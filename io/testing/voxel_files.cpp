@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <new>
 
+#include "io/errors.h"
 #include "io/load.h"
 #include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
@@ -67,6 +68,27 @@ Volume only_volume(const fs::path& file, int frame) {
   }
   EXPECT_TRUE(found.series[0].usable);
   return load(found.series[0], {.frame = frame});
+}
+
+std::string verdict_on(const std::string& name, const std::string& bytes) {
+  const TestFolder folder;
+  write_bytes(folder / name, bytes);
+  const Catalogue found = find_series(std::array{folder / name});
+  if (!found.series.empty()) return "read";
+  return found.skipped.empty() ? "nothing" : std::string(found.skipped[0].reason);
+}
+
+std::string verdict_on_voxels(const std::string& bytes, const std::string& name) {
+  const TestFolder folder;
+  write_bytes(folder / name, bytes);
+  const Catalogue found = find_series(std::array{folder / name});
+  if (found.series.empty()) return found.skipped.at(0).reason;
+  try {
+    load(found.series[0]);
+  } catch (const DicomError& error) {
+    return error.what();
+  }
+  return "loaded";
 }
 
 std::string refusal_of(const std::string& name, const std::string& bytes) {

@@ -31,6 +31,13 @@ void expect_all(const Volume& volume, const std::function<Vec3(int, int, int)>& 
 
 /// The only volume in the file. If there is none, a test failure and an empty volume.
 Volume only_volume(const std::filesystem::path& file, int frame = 0);
+/// Why a named file is not listed as a scan; "read" if it is.
+std::string verdict_on(const std::string& name, const std::string& bytes);
+/// The same, or why its voxels are not loaded; "loaded" if they are.
+std::string verdict_on_voxels(const std::string& bytes, const std::string& name = "a.nrrd");
+inline const std::string no_lattice =
+    "its voxels are on no lattice that can be felt (no size, or axes that are sheared): resample it with axes at right "
+    "angles";
 /// Why a file of that name and content is refused.
 std::string refusal_of(const std::string& name, const std::string& bytes);
 
