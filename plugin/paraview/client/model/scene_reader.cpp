@@ -10,8 +10,8 @@ namespace palpate::plugin {
 bool SceneReader::read(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& scan,
                        std::function<void(const QString& error)> done) {
   if (!scan) return false;
-  std::string text = modes::to_json(scene);
-  if (std::exchange(just_read_, {}) == text && held_of_.lock() == scan) return false;
+  const std::string just_read = std::exchange(just_read_, {});
+  if (!just_read.empty() && held_of_.lock() == scan && just_read == modes::to_json(scene)) return false;
   try {
     if (live_.has_read(scene, scan)) return false;
   } catch (const std::exception&) {
@@ -19,7 +19,8 @@ bool SceneReader::read(const modes::Scene& scene, const std::shared_ptr<const io
   }
   if (held_of_.lock() != scan) held_.clear();
   held_of_ = scan;
-  const auto finish = [this, text = std::move(text), done = std::move(done)](const auto& read, const QString& error) {
+  const auto finish = [this, text = modes::to_json(scene), done = std::move(done)](const auto& read,
+                                                                                   const QString& error) {
     if (read) {
       held_.insert(held_.end(), read->structures.begin(), read->structures.end());
       live_.offer(PreparedScene(*read));
