@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "io/errors.h"
+#include "io/messages.h"
 #include "io/quantile.h"
 #include "io/structures/continued_mask.h"
 #include "io/structures/fraction_edges.h"
@@ -82,7 +84,7 @@ struct Slices {
   Vec3 normal, across;          // unit vectors: of the planes, and along their columns
   std::vector<double> heights;  // along the normal, mm
   double step = 1;              // mm: the least between two heights
-  bool is_whole = true;         // all steps are multiples of the least: then all slices are nodes
+  bool is_whole = true;         // all steps are multiples of the least: then slices are nodes, or lie beside one
 
   Vec3 slide_of(const Vec3& position) const { return position - geometry.slice_positions.front(); }
   /// Slices that are no nodes go on by the mean step: where they begin decides how near they lie to nodes.
@@ -155,14 +157,15 @@ std::vector<int> slices_around(const Mask& mask, const Slices& slices, double ba
 }
 
 /// mm: the largest step between slices of the box, or from one of them to the next. The least one where slices are no
-/// nodes.
+/// nodes. More than 16 of the least are a gap, over which nothing is known.
 double largest_step(const Mask& mask, const Slices& slices) {
   double largest = slices.step;
   if (!slices.is_whole) return largest;
+  constexpr double gap = 16;
   for (int k = mask.low.z - 1; k < mask.low.z + mask.size.z; ++k) {
     largest = std::max(largest, slices.height_of(k + 1) - slices.height_of(k));
   }
-  return largest;
+  return std::min(largest, gap * slices.step);
 }
 
 /// Places the box and its known surroundings on the lattice, and determines the lattice's size and origin.
@@ -261,6 +264,12 @@ OutlinePlanes planes_of(const Mask& mask, double reach_mm, const Geometry* scan)
   planes.play_mm = glm::length(Vec3(glm::dvec2(slices.voxel()), largest_step(mask, slices)));
   planes.band_mm = band_for(reach_mm, lattice, planes.play_mm);
   const Layout layout = lay_out(mask, slices, per_voxel, planes.band_mm, lattice);
+  const glm::dvec2 nodes(lattice.bricks * NodeBricks::edge);
+  constexpr double most_nodes = 5e7;  // of a plane: those of patients have far fewer
+  if (nodes.x * nodes.y > most_nodes) {
+    const double tall_mm = slices.height_of(mask.low.z + mask.size.z - 1) - slices.height_of(mask.low.z);
+    throw DicomError(say("slices-span-mm", std::lround(std::max(tall_mm, planes.play_mm))));
+  }
   planes.node = layout.slice_node;
   planes.compute = [mask = ContinuedMask(mask, scan), layout, lattice, band = planes.band_mm](
                        std::size_t plane, PlaneDistances& distances) {

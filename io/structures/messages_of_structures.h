@@ -34,7 +34,8 @@ inline constexpr MessageRow structures[] = {
      {{"contour-of-it-has-numbers", "a contour of it has {} numbers, not three for each point"},
       {"contour-beyond-any-patient", "a point of it lies farther from the scanner than 100 m"},
       {"frame-beyond-any-patient",
-       "a frame of it lies farther from the scanner than 100 m, or its pixels are too small for any patient"}}},
+       "a frame of it lies farther from the scanner than 100 m, or its pixels are too small for any patient"},
+      {"slices-span-mm", "its slices and the steps between them span {} mm: more than can be felt"}}},
     {"contours of another kind, or damaged",
      "",
      {{"contours-do-not-lie-in-parallel", "its contours do not lie in parallel planes: export it as SEG"},
@@ -51,7 +52,9 @@ inline constexpr MessageRow structures[] = {
        "smaller "
        "ones are filled"},
       {"contours-in-one-plane", "its contours lie in one plane, and nothing says how thick it is: it counts as 1 mm"},
-      {"one-slice-of-no-thickness", "it has one slice, and its file does not say how thick it is: it counts as 1 mm"},
+      {"one-slice-of-no-thickness",
+       "it has one slice, and its file does not say how thick it is: it counts as thick as a slice of the scan, and "
+       "without a scan as 1 mm"},
       {"segment-is-not-described",
        "its file does not describe it: frames name it, and the list of segments (SegmentSequence) does not"}}},
     {"it was not written whole",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,12 +56,19 @@ std::vector<Matched> matched(const Mask& mask, const Vec3& normal, const ScanSli
   return slices;
 }
 
-/// Whether two of them are neighbors in the scan. A slice alone has to be as thick as the scan's.
-bool is_as_fine(const std::vector<Matched>& slices, const ScanSlices& scan, double thickness_mm) {
+/// mm: the smaller of the steps beside a slice. A gap beside it does not make it thick.
+double thickness_of(const ScanSlices& scan, std::size_t n) {
+  double least = std::numeric_limits<double>::infinity();
+  if (n > 0) least = scan.height[n] - scan.height[n - 1];
+  if (n + 1 < scan.height.size()) least = std::min(least, scan.height[n + 1] - scan.height[n]);
+  return least;
+}
+
+/// Whether two of them are neighbors in the scan. A slice alone has to be as thick as the scan's, if its file says.
+bool is_as_fine(const std::vector<Matched>& slices, const ScanSlices& scan, const Mask& mask) {
   if (slices.size() == 1) {
     constexpr double about = 1.5;
-    const std::size_t n = std::min(slices.front().of_scan, scan.height.size() - 2);
-    return thickness_mm < about * (scan.height[n + 1] - scan.height[n]);
+    return mask.has_no_thickness || mask.geometry.slice_spacing() < about * thickness_of(scan, slices.front().of_scan);
   }
   for (std::size_t n = 1; n < slices.size(); ++n) {
     if (slices[n].of_scan == slices[n - 1].of_scan + 1) return true;
@@ -115,7 +123,7 @@ void take_slices_of(const Geometry& scan, double around_mm, Mask& mask) {
   const auto slices = slices_along(scan, normal);
   if (!slices || mask.occupancy.empty()) return;
   const std::vector<Matched> own = matched(mask, normal, *slices);
-  if (own.empty() || !is_as_fine(own, *slices, geometry.slice_spacing())) return;
+  if (own.empty() || !is_as_fine(own, *slices, mask)) return;
   std::vector<Vec3> positions;
   std::vector<std::optional<int>> to(geometry.slice_positions.size());
   std::size_t next = 0;  // of `own`
@@ -136,6 +144,8 @@ void take_slices_of(const Geometry& scan, double around_mm, Mask& mask) {
   if (geometry.dimensions.z > 1) {
     geometry.step =
         (geometry.slice_positions.back() - geometry.slice_positions.front()) / (geometry.dimensions.z - 1.0);
+  } else if (mask.has_no_thickness) {
+    geometry.step = thickness_of(*slices, own.front().of_scan) * normal;
   }
 }
 

@@ -64,7 +64,10 @@ TEST(SegmentLists, OneSliceIsAsThickAsItsFileSays) {
     EXPECT_NEAR(volume, 20 * of_a_pixel * said.mm, 1e-9) << said.spacing << ' ' << said.thickness;
     EXPECT_EQ(found[0].warnings.empty(), said.mm > 1);
     if (!found[0].warnings.empty()) {
-      EXPECT_EQ(found[0].warnings[0], "it has one slice, and its file does not say how thick it is: it counts as 1 mm");
+      EXPECT_EQ(
+          found[0].warnings[0],
+          "it has one slice, and its file does not say how thick it is: it counts as thick as a slice of the scan, "
+          "and without a scan as 1 mm");
     }
   }
 }

@@ -175,8 +175,8 @@ TEST(SegmentationSlices, AreFoundInATimeThatGrowsWithTheirFrames) {
     }
     return least;
   };
-  // Eight times as many: 8 times as long, and 64 with the square.
-  EXPECT_LT(seconds_for(40000), 24 * seconds_for(5000));
+  // Eight times as many: 8 times as long, more where they fit no cache, and 64 with the square.
+  EXPECT_LT(seconds_for(40000), 40 * seconds_for(5000));
 }
 
 // Some programs count the frames, over all slices and segments: that says nothing of slices.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/errors.h"
 #include "io/structures/distance_bounds.h"
 #include "io/structures/fraction_edges.h"
 #include "io/structures/label_planes.h"
@@ -169,6 +170,60 @@ TEST(UnevenMasksLaws, SlicesLieOnTheCoarserLattices) {
       const OutlinePlanes planes = planes_of(mask, 3);
       ASSERT_GT(planes.coarser, 0);
       for (const int node : planes.node) EXPECT_EQ(node % (1 << planes.coarser), 0) << heights[1] << is_whole;
+    }
+  }
+}
+
+// A gap over which nothing is known, or one frame that a damaged file puts far away: the lattice grows by neither.
+TEST(UnevenMasksLaws, AGapMakesNoLargerLattice) {
+  const auto lattice_of = [](const std::vector<double>& heights) {
+    Mask mask;
+    mask.geometry = slices_at(12, 0.5, heights);
+    mask.size = mask.geometry.dimensions;
+    mask.occupancy.assign(static_cast<std::size_t>(144 * mask.size.z), Mask::full);
+    return planes_of(mask, 3);
+  };
+  for (const double step : {1.0, 2.5}) {
+    const int even = lattice_of(heights_of({{9, step}})).lattice.bricks.x;
+    for (const int gap : {30, 200, 19999}) {
+      for (const int at : {1, 4, 8}) {
+        const auto planes = lattice_of(heights_of({{at, step}, {1, gap * step}, {9 - at, step}}));
+        EXPECT_LE(planes.play_mm, 17 * step) << gap << ' ' << at;
+        EXPECT_LE(planes.lattice.bricks.x, even + 2 * std::ceil(17 * step / 0.5 / 8) + 2) << gap << ' ' << at;
+      }
+    }
+  }
+  // Where the least step is as wide, no lattice holds it.
+  EXPECT_THROW(lattice_of({0, 20000}), DicomError);
+  EXPECT_THROW(lattice_of(heights_of({{4, 50000}})), DicomError);
+}
+
+// One slice whose file does not say how thick it is reaches half of the way to the scan's slices beside it, however far
+// the others lie. With a thickness that it says it keeps that.
+TEST(UnevenMasksLaws, OneSliceIsAsThickAsTheScanThere) {
+  for (const auto& heights :
+       {heights_of({{9, 3}, {1, 183}, {10, 3}}), heights_of({{20, 1}, {10, 5}}), heights_of({{10, 5}, {20, 1}}),
+        heights_of({{9, 3}, {1, 18}}), heights_of({{3, 2.5}}), heights_of({{4, 2.9}, {1, 3.3}, {5, 3.1}})}) {
+    const Geometry scan = slices_at(14, 1, heights);
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+      Mask mask;
+      mask.geometry = scan;
+      mask.geometry.slice_positions = {scan.slice_positions[k]};
+      mask.geometry.dimensions.z = mask.size.z = 1;
+      mask.geometry.step = {0, 0, 1};
+      mask.has_no_thickness = true;
+      mask.low = {2, 2, 0};
+      mask.size.x = mask.size.y = 10;
+      mask.occupancy.assign(100, Mask::full);
+      const double below = heights[std::max<std::size_t>(k, 1)] - heights[std::max<std::size_t>(k, 1) - 1];
+      const std::size_t next = std::min(k + 1, heights.size() - 1);
+      const double above = heights[next] - heights[next - 1];
+      constexpr double beyond = 20;  // mm: slices farther away are not asked
+      const double step = below > beyond ? above : above > beyond ? below : (below + above) / 2;
+      EXPECT_NEAR(OneMask(mask).measure(1, {}, &scan).volume_mm3, 100 * step, 1e-6) << heights.size() << ' ' << k;
+      mask.has_no_thickness = false;
+      mask.geometry.step = {0, 0, 30};
+      EXPECT_NEAR(OneMask(mask).measure(1, {}, &scan).volume_mm3, 3000, 1e-6) << heights.size() << ' ' << k;
     }
   }
 }

@@ -61,7 +61,7 @@ stage_shared() {
   cmake --preset release -DPALPATE_SHARED_DATA=FOLDER"
   run_ctest release -R '^shared\.'
 }
-# What computes for long and reads no bytes is left to the release build.
+# What computes for long is left to the release build: it reads no bytes, or those that other tests read, too.
 numeric='(device\.(EachDevice|RandomFaults)|io\.(FractionsFelt|PlacesWithinTheBound|PlanesAlone)|results\.(ReadBack|UnevenSlices))'
 stage_asan() {
   configure_and_build asan && LSAN_OPTIONS="suppressions=$PWD/.ci/leaks:print_suppressions=0" run_ctest asan -E "^(shared|arrows)|^($numeric)"
