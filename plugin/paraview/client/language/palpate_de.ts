@@ -1815,6 +1815,18 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>SeriesWords</name>
     <message>
+        <source>slices every %1 mm</source>
+        <translation>Schichten alle %1 mm</translation>
+    </message>
+    <message>
+        <source>sharp kernel %1</source>
+        <translation>scharfer Kern %1</translation>
+    </message>
+    <message>
+        <source>soft kernel %1</source>
+        <translation>weicher Kern %1</translation>
+    </message>
+    <message>
         <source>%1 mm thick</source>
         <translation>%1 mm dick</translation>
     </message>
@@ -2586,6 +2598,156 @@ ID %2, Studie vom %3</translation>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
+    </message>
+</context>
+<context>
+    <name>Messages</name>
+    <message>
+        <source>The stylus reported an impossible pose; home it again, then clear the fault and turn the force on.</source>
+        <translation>Der Stift meldete eine unmögliche Lage: referenzieren Sie ihn neu, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The scene asked for a force that is not a number; keep the recording, then clear the fault and turn the force on.</source>
+        <translation>Die Szene verlangte eine Kraft, die keine Zahl ist: behalten Sie die Aufzeichnung, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The stylus is gone: check its plug and power, open it again, then clear the fault and turn the force on.</source>
+        <translation>Der Stift ist weg: prüfen Sie Stecker und Strom, verbinden Sie ihn neu, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The stylus stopped sending poses: check its plug and power, then clear the fault and turn the force on.</source>
+        <translation>Der Stift meldet keine Lage mehr: prüfen Sie Stecker und Strom, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>No new force was computed: the scene&apos;s thread is stalled; wait for it, then clear the fault and turn the force on.</source>
+        <translation>Es wurde keine neue Kraft berechnet, die Szene wird aufgehalten: warten Sie, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The servo loop was held up: close other heavy programs, then clear the fault and turn the force on.</source>
+        <translation>Die Regelschleife wurde aufgehalten: schließen Sie andere große Programme, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The stylus moved faster than allowed: hold it, then clear the fault and turn the force on.</source>
+        <translation>Der Stift bewegte sich schneller als erlaubt: halten Sie ihn fest, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The panel stopped answering: wait until it does, then clear the fault and turn the force on.</source>
+        <translation>Das Bedienfeld antwortete nicht mehr: warten Sie, bis es wieder antwortet, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>
+    </message>
+    <message>
+        <source>The stylus was unplugged: check its plug and power, then open it again.</source>
+        <translation>Der Stift wurde ausgesteckt: prüfen Sie Stecker und Strom, dann verbinden Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>The stylus stopped sending poses: check its plug and power, then open it again.</source>
+        <translation>Der Stift meldet keine Lage mehr: prüfen Sie Stecker und Strom, dann verbinden Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>The stylus is too slow to push safely: use another socket, without a hub, then open it again.</source>
+        <translation>Der Stift ist zu langsam für sichere Kräfte: nehmen Sie eine andere Buchse, ohne Hub, dann verbinden Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>The stylus reported a pose that no hand can reach: open it again and home it; check its settings file.</source>
+        <translation>Der Stift meldete eine Lage, die keine Hand erreicht: verbinden und referenzieren Sie ihn neu; prüfen Sie seine Einstellungsdatei.</translation>
+    </message>
+    <message>
+        <source>The stylus lost its home: open it again and home it.</source>
+        <translation>Der Stift hat seine Referenz verloren: verbinden und referenzieren Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>The program was stopped or held up, and does not know where the hand is now: open the stylus again.</source>
+        <translation>Das Programm wurde angehalten oder aufgehalten und weiß nicht, wo die Hand jetzt ist: verbinden Sie den Stift neu.</translation>
+    </message>
+    <message>
+        <source>The machine slept, or is about to sleep: when it is awake, open the stylus again.</source>
+        <translation>Der Rechner schlief oder geht gleich schlafen: verbinden Sie den Stift neu, wenn er wach ist.</translation>
+    </message>
+    <message>
+        <source>The stylus does not take forces: check its power and its force button, then open it again.</source>
+        <translation>Der Stift nimmt keine Kräfte an: prüfen Sie seinen Strom und seinen Kraftschalter, dann verbinden Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>The stylus&apos;s own safety took the force away: let its motors cool, then open it again.</source>
+        <translation>Der Stift hat selbst die Kraft weggenommen: lassen Sie seine Motoren abkühlen, dann verbinden Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>Another program pushes the stylus, too: close that program, then open it again.</source>
+        <translation>Auch ein anderes Programm treibt den Stift an: schließen Sie es, dann verbinden Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>The guardian of the stylus ended or hangs: open the stylus again, which starts another.</source>
+        <translation>Der Wächter des Stifts ist beendet oder hängt: verbinden Sie den Stift neu, das startet einen anderen.</translation>
+    </message>
+    <message>
+        <source>ParaView&apos;s session ended, and the scan went with it. Open a scan, then press Feel</source>
+        <translation>ParaViews Sitzung endete, und mit ihr die Aufnahme. Öffnen Sie eine Aufnahme, dann drücken Sie Fühlen</translation>
+    </message>
+    <message>
+        <source>the scan was deleted. Open a scan, then press Feel</source>
+        <translation>die Aufnahme wurde gelöscht. Öffnen Sie eine Aufnahme, dann drücken Sie Fühlen</translation>
+    </message>
+    <message>
+        <source>the scan is still being read. Wait until it is shown, then press Feel</source>
+        <translation>die Aufnahme wird noch gelesen. Warten Sie, bis sie gezeigt wird, dann drücken Sie Fühlen</translation>
+    </message>
+    <message>
+        <source>no view shows the scan. Show it again (the eye in the Pipeline Browser), then press Feel</source>
+        <translation>keine Ansicht zeigt die Aufnahme. Zeigen Sie sie wieder (das Auge im Pipeline Browser), dann drücken Sie Fühlen</translation>
+    </message>
+    <message>
+        <source>another scan, {}, is active in the Pipeline Browser. Choose {} there, then press Feel</source>
+        <translation>eine andere Aufnahme, {}, ist im Pipeline Browser aktiv. Wählen Sie dort {}, dann drücken Sie Fühlen</translation>
+    </message>
+    <message>
+        <source>the views show {}, and the stylus has {}. Go back to the one that the stylus has, then press Feel</source>
+        <translation>die Ansichten zeigen {}, und der Stift hat {}. Gehen Sie zu der zurück, die der Stift hat, dann drücken Sie Fühlen</translation>
+    </message>
+    <message>
+        <source>none of its images can be read</source>
+        <translation>keines ihrer Bilder ist lesbar</translation>
+    </message>
+    <message>
+        <source>a localizer, no volume</source>
+        <translation>eine Übersichtsaufnahme, kein Volumen</translation>
+    </message>
+    <message>
+        <source>one slice alone is no volume</source>
+        <translation>eine Schicht allein ist kein Volumen</translation>
+    </message>
+</context>
+<context>
+    <name>Tissues</name>
+    <message>
+        <source>air</source>
+        <translation>Luft</translation>
+    </message>
+    <message>
+        <source>lung or foam</source>
+        <translation>Lunge oder Schaumstoff</translation>
+    </message>
+    <message>
+        <source>fat</source>
+        <translation>Fett</translation>
+    </message>
+    <message>
+        <source>soft tissue</source>
+        <translation>Weichgewebe</translation>
+    </message>
+    <message>
+        <source>bone</source>
+        <translation>Knochen</translation>
+    </message>
+    <message>
+        <source>metal</source>
+        <translation>Metall</translation>
+    </message>
+    <message>
+        <source>between tissues</source>
+        <translation>zwischen Geweben</translation>
+    </message>
+    <message>
+        <source>outside</source>
+        <translation>außerhalb</translation>
     </message>
 </context>
 </TS>

@@ -7,7 +7,7 @@
 namespace palpate::plugin {
 
 /// While this object exists, translated texts are shown in the language of the setting palpate/language ("de", "en"),
-/// or else of the system. Untranslated texts stay English, as messages do (plugin/docs/messages.md).
+/// or else of the system. Untranslated texts stay English, as most messages do (plugin/docs/messages.md).
 class Translation : public QTranslator {
  public:
   Translation();

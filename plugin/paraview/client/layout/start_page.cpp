@@ -21,6 +21,7 @@
 #include "plugin/paraview/client/scan/recent_folders.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/words/patient_words.h"
+#include "plugin/paraview/client/words/series_words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -156,7 +157,7 @@ void StartPage::set_catalogue(const std::shared_ptr<const io::Catalogue>& catalo
     if (!same_patient) add_patient(*all[n]);
     if (!same_patient || last->study_uid != all[n]->study_uid) add_study(*all[n]);
     last = all[n];
-    const QString best = first && first->index == n ? QString::fromStdString(first->why) : QString();
+    const QString best = first && first->index == n ? why_first(*all[n]) : QString();
     auto* const card = new SeriesCard(*all[n], best, patients_);
     connect(card, &QPushButton::clicked, this, [this, n] { emit series_wanted(n); });
     studies_.back().series.push_back(card);

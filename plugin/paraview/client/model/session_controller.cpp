@@ -372,7 +372,7 @@ void SessionController::poll() {
   status_.peak_n = std::min(status_.peak_n, allowed_n);
   status_.missed = live_.missed();
   status_.homing = homing_;
-  status_.trouble = QString::fromStdString(live_.trouble());
+  status_.trouble = words(live_.trouble());
   status_.orientation.reset();
   if (const auto turned = live_.orientation()) {
     status_.orientation = glm::normalize(glm::quat_cast(status_.workspace.rotation) * *turned);

@@ -4,6 +4,7 @@
 
 #include "device/safety/safety_filter.h"
 #include "plugin/paraview/client/model/session_controller.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/session/session.h"
 
 namespace palpate::plugin {
@@ -25,7 +26,7 @@ StateLine state_line_of(const SessionStatus& look) {
   if (latched) {
     const auto device = static_cast<device::State>(look.tick.stylus_state);
     const bool lost = device == device::State::fault || device == device::State::disconnected;
-    const QString advice = QString::fromStdString(device::advice_for(fault));
+    const QString advice = words(device::advice_for(fault));
     // The stylus may know more than that it is lost.
     QString why = lost && !look.trouble.isEmpty() ? look.trouble : advice;
     if (fault == device::Fault::commander_silent && !look.held_up.isEmpty()) {

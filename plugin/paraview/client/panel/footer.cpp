@@ -19,6 +19,7 @@
 #include "plugin/paraview/client/widgets/kept_width.h"
 #include "plugin/paraview/client/widgets/message_label.h"
 #include "plugin/paraview/client/widgets/release_button.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/report/summary.h"
 #include "solver/solver_type.h"
 
@@ -260,7 +261,7 @@ void Footer::show_look(const SessionStatus& look) {
   // The tool tip has the whole of a shortened name; depth and error stay.
   depth_->setText(depth_->fontMetrics().elidedText(past, Qt::ElideMiddle, depth_->width()));
   depth_->setToolTip(past);
-  const QString tissue = QString::fromStdString(look.tissue);
+  const QString tissue = tissue_in_words(look.tissue);
   const std::string unit = session_.live().scan() ? session_.live().scan()->unit : std::string();
   // Else the tick is of a scan that is gone.
   tissue_->setText(!scan_open_                 ? QString()

@@ -61,7 +61,7 @@ void SeriesList::list_files(const FoundList& found) {
     QStringList lines{QString::fromStdString(scan_label(series)), series_details(series)};
     if (!series.usable) lines << why_not_usable(series);
     if (first && first->index == n && order.size() > 1) {
-      lines << tr("★ Recommended: %1").arg(QString::fromStdString(first->why));
+      lines << tr("★ Recommended: %1").arg(why_first(series));
     }
     auto* const row = new QListWidgetItem(no_picture_yet, lines.join(QLatin1Char('\n')), this);
     row->setData(Qt::UserRole, static_cast<qulonglong>(n));

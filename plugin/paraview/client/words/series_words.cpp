@@ -3,6 +3,8 @@
 #include <QCoreApplication>
 #include <QStringList>
 
+#include "io/choose_first.h"
+#include "plugin/paraview/client/words.h"
 #include "plugin/paraview/client/words/patient_words.h"
 
 namespace palpate::plugin {
@@ -51,9 +53,19 @@ QString series_details(const io::Series& series) {
   return words.join(QStringLiteral(" · "));
 }
 
+QString why_first(const io::Series& series) {
+  QStringList words{translated("slices every %1 mm").arg(series.geometry.slice_spacing(), 0, 'f', 2)};
+  if (const std::string& kernel = series.details.kernel; !kernel.empty()) {
+    words
+        << translated(io::is_sharp(kernel) ? "sharp kernel %1" : "soft kernel %1").arg(QString::fromStdString(kernel));
+  }
+  words << translated("%1 slices").arg(series.geometry.dimensions.z);
+  return words.join(QStringLiteral(", "));
+}
+
 QString why_not_usable(const io::Series& series) {
   if (series.usable) return {};
-  return series.warnings.empty() ? translated("not a volume") : QString::fromStdString(series.warnings.front());
+  return series.warnings.empty() ? translated("not a volume") : words(series.warnings.front());
 }
 
 }  // namespace palpate::plugin

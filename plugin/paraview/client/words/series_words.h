@@ -15,6 +15,9 @@ QString series_title(const io::Series& series);
 /// out.
 QString series_details(const io::Series& series);
 
+/// Why it is the one to begin with: "slices every 1.00 mm, soft kernel B30f, 512 slices".
+QString why_first(const io::Series& series);
+
 /// Why it cannot be felt; empty if it can.
 QString why_not_usable(const io::Series& series);
 
