@@ -93,6 +93,18 @@ TEST(MetaImageHeader, AFourthAxisTakesNothingFromTheOthers) {
   }
 }
 
+/// A fourth axis has from one to a million volumes.
+TEST(MetaImageHeader, AFourthAxisOfNoCountIsRefused) {
+  for (const char* const count : {"0", "-2", "nan", "inf", "0.5", "1000001", "1e300"}) {
+    EXPECT_EQ(verdict_on("a.mha", "NDims = 4\nDimSize = 4 3 5 " + std::string(count) +
+                                      "\nElementType = MET_SHORT\nElementSpacing = 1 1 1 1\nOffset = 0 0 0 0\n"
+                                      "ElementDataFile = LOCAL\n" +
+                                      voxels<std::int16_t>(false, 2)),
+              no_lattice)
+        << count;
+  }
+}
+
 /// HeaderSize: from the first byte on, however few.
 TEST(MetaImageHeader, AnyCountOfBytesIsSkipped) {
   for (const int count : {0, 1, 2, 3, 1000}) {
