@@ -380,6 +380,8 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
   auto& image = *vtkSMSourceProxy::SafeDownCast(source.getProxy());
   const ImageLattice lattice = lattice_of(image);
   stop_making();
+  // The views may be those of the reader before, which Undo has brought back: each has its slice still.
+  for (const auto& slice : slices_) delete slice.data();
   slices_.clear();
   marker_.reset();
   patient_.reset();

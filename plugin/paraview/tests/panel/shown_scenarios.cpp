@@ -10,8 +10,13 @@
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
+#include <vtkPVRenderView.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkTextActor.h>
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -22,6 +27,7 @@
 #include <QTreeWidget>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
@@ -109,12 +115,24 @@ void no_scan_shown_no_force() {
   expect_ready_to_feel();
 }
 
+/// How many texts are drawn over a slice.
+int texts_drawn_over(const char* name) {
+  auto* const client = vtkPVRenderView::SafeDownCast(render_view(name).getRenderViewProxy()->GetClientSideView());
+  vtkPropCollection& props = *client->GetNonCompositedRenderer()->GetViewProps();
+  int texts = 0;
+  for (int n = 0; n < props.GetNumberOfItems(); ++n) {
+    texts += vtkTextActor::SafeDownCast(props.GetItemAsObject(n)) ? 1 : 0;
+  }
+  return texts;
+}
+
 /// What is deleted in the pipeline can be brought back, and is felt as before.
 void a_deleted_scan_comes_back() {
   choose_series(0);
   feel();
   const QString felt = label("palpateFelt");
   expect(felt.startsWith("Felt: CT "), "the panel names what is felt");
+  const int texts = texts_drawn_over("Axial");
   pqDeleteReaction::deleteSources({&reader()});
   expect_stopped("the scan was deleted. Open a scan, then press Feel");
   wait_for(
@@ -125,6 +143,14 @@ void a_deleted_scan_comes_back() {
   expect_ready_to_feel();
   wait_for(
       "the same is felt", [&] { return label("palpateFelt") == felt; }, 20);
+  for (const char* const name : {"Axial", "Sagittal", "Coronal"}) {
+    expect(texts_drawn_over(name) == texts, std::string("one set of texts lies over ") + name);
+    turn_wheel(name, 1);  // from now on the slices do not follow the stylus
+    const auto number_of_slice = [name] { return corner_text(name).section(" / ", 0, 0).section(' ', -1).toInt(); };
+    const int before = number_of_slice();
+    turn_wheel(name, 1);
+    expect(std::abs(number_of_slice() - before) == 1, std::string("the wheel shows the next slice in ") + name);
+  }
   save_screen("scan-brought-back");
 }
 
