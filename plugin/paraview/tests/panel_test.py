@@ -165,6 +165,7 @@ FOLDERS = {
     "frames_are_felt_as_shown": flow,
     "a_flow_is_shown_and_felt": flow,
     "a_flow_is_drawn_as_a_volume": flow,
+    "surfaces_are_of_the_frame_that_is_shown": spoilt_in_frames,
     "one_tab_is_used_again": both,
     "a_look_is_of_its_scan": both,
     # So fine that its lines take longer than the next picture.
@@ -267,6 +268,7 @@ SCENARIOS = [
     "a_scene_without_its_field_is_refused",
     "a_flow_is_shown_and_felt",
     "a_flow_is_drawn_as_a_volume",
+    "surfaces_are_of_the_frame_that_is_shown",
     "the_hand_begins_in_sight",
     "keys_go_to_the_marked_view",
     "slices_are_scrolled",

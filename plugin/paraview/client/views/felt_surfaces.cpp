@@ -187,6 +187,12 @@ struct FeltSurfaces::One {
     for (const auto& actor : actors) renderer->RemoveActor(actor);
     actors.clear();
   }
+  /// Surfaces of another scan or frame are not to be seen while this one's are computed. The scan stays hidden.
+  void forget() {
+    job.cancel();
+    clear();
+    if (view) view->render();
+  }
   void draw(const Drawn& drawn);
   void add(const FeltSurface& surface, const QColor& color);
 
@@ -252,8 +258,11 @@ void FeltSurfaces::set_visible(bool visible) {
 void FeltSurfaces::set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
                             const std::shared_ptr<const modes::Plan>& plan,
                             const std::shared_ptr<const io::FieldSource>& source) {
+  const bool is_other = felt_ && felt_->volume != volume;
   felt_ = volume && plan && source ? std::make_shared<const Felt>(Felt{volume, scene, plan, source}) : nullptr;
-  if (visible_) draw();
+  if (!visible_) return;
+  if (is_other && one_) one_->forget();
+  draw();
 }
 
 void FeltSurfaces::draw() {
@@ -268,7 +277,7 @@ void FeltSurfaces::draw() {
         return {felt, felt_surfaces(*felt->volume, felt->scene, *felt->plan, *felt->source)};
       },
       [one = one_.get()](const std::shared_ptr<const One::Drawn>& drawn, const QString&) {
-        if (drawn) one->draw(*drawn);
+        one->draw(drawn ? *drawn : One::Drawn());
       });
 }
 

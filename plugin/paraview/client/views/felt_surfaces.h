@@ -37,7 +37,8 @@ class FeltSurfaces {
   /// The views of a new scan; empty: none. The surfaces are hidden at first.
   void set_views(const std::vector<ClinicalView>& views);
   void set_visible(bool visible);
-  /// As BoundaryContours::set_felt(); null: nothing is drawn. Computed in the background while visible.
+  /// As BoundaryContours::set_felt(); null: nothing is drawn. Computed in the background while visible. Meanwhile the
+  /// surfaces of the same volume stay; those of another are removed at once.
   void set_felt(const std::shared_ptr<const io::Volume>& volume, const modes::Scene& scene,
                 const std::shared_ptr<const modes::Plan>& plan, const std::shared_ptr<const io::FieldSource>& source);
 

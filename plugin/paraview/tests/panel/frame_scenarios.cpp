@@ -18,10 +18,12 @@
 
 #include <QAction>
 #include <QCheckBox>
+#include <QColor>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QImage>
 #include <QListWidget>
+#include <QObject>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSlider>
@@ -30,6 +32,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "plugin/paraview/client/model/session_controller.h"
+#include "plugin/paraview/tests/panel/drawn_lines.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -273,6 +277,30 @@ void a_flow_is_drawn_as_a_volume() {
   wait_for_part("the first frame is seen again", 0.3, 1);
 }
 
+/// A ball of 25 mm, and of 23 mm in the second frame: surfaces of the first are not seen while the second's are made.
+void surfaces_are_of_the_frame_that_is_shown() {
+  scan_is_shown();
+  auto& looks = find<QComboBox>("palpateVolumeLook");
+  looks.setCurrentText("Felt boundaries");
+  emit looks.activated(looks.currentIndex());
+  const auto radius_mm = [] { return -least_of_surface_in("Volume", QColor(0xe6, 0x9f, 0x00)).x; };
+  wait_for(
+      "the first frame's surface is there", [&] { return std::abs(radius_mm() - 25) < 0.7; }, 20);
+  // The slot of the action stands for one of the panel's: that the second frame is felt is told at once.
+  QAction felt;
+  QObject::connect(&panel_session(), SIGNAL(felt_scan_changed()), &felt, SLOT(trigger()));
+  double radius_when_felt_mm = -1;
+  QObject::connect(&felt, &QAction::triggered, [&] { radius_when_felt_mm = radius_mm(); });
+  find<QSlider>("palpateFrame").setValue(1);
+  wait_for(
+      "the second frame is felt", [] { return label("palpateFelt").contains("2 of 2."); }, 20);
+  expect(radius_when_felt_mm == 0,
+         "the first frame's surface is gone by then: " + std::to_string(radius_when_felt_mm) + " mm");
+  wait_for(
+      "the second frame's surface is there", [&] { return std::abs(radius_mm() - 23) < 0.7; }, 20);
+  save_screen("frame-surfaces");
+}
+
 /// Refused before anything is connected, in words, and the scene that can be felt stays.
 void a_scene_without_its_field_is_refused() {
   scan_is_shown();
@@ -315,6 +343,7 @@ const Scenarios& frame_scenarios() {
       {"frames_are_felt_as_shown", frames_are_felt_as_shown},
       {"a_flow_is_shown_and_felt", a_flow_is_shown_and_felt},
       {"a_flow_is_drawn_as_a_volume", a_flow_is_drawn_as_a_volume},
+      {"surfaces_are_of_the_frame_that_is_shown", surfaces_are_of_the_frame_that_is_shown},
       {"a_scene_without_its_field_is_refused", a_scene_without_its_field_is_refused},
   };
   return all;
