@@ -57,9 +57,10 @@ cv::Mat disc(double radius_mm, double pixel_mm) {
 }
 
 /// The pieces of all slices, linked where they are above each other; -1 if there is none.
-std::vector<cv::Mat> label_pieces(const std::vector<cv::Mat>& slices, Pieces& pieces) {
+std::vector<cv::Mat> label_pieces(const std::vector<cv::Mat>& slices, Pieces& pieces, const KeepGoing& keep_going) {
   std::vector<cv::Mat> labels;
   for (const cv::Mat& slice : slices) {
+    check_wanted(keep_going);
     cv::Mat found;
     const int here = cv::connectedComponents(slice, found, 4, CV_32S);
     std::vector<int> names(static_cast<std::size_t>(here), -1);
@@ -100,7 +101,7 @@ bool BodyMask::holds(int i, int j, int k) const {
 }
 
 BodyMask body_mask(const std::function<double(int, int, int)>& value_at, const glm::ivec3& voxels,
-                   const glm::dvec3& spacing_mm, Rim rim, double coarse_mm) {
+                   const glm::dvec3& spacing_mm, Rim rim, double coarse_mm, const KeepGoing& keep_going) {
   BodyMask mask;
   for (int axis = 0; axis < 3; ++axis) {
     mask.step[axis] = std::max(1, static_cast<int>(std::ceil(coarse_mm / spacing_mm[axis] - 1e-6)));
@@ -110,6 +111,7 @@ BodyMask body_mask(const std::function<double(int, int, int)>& value_at, const g
   std::vector<cv::Mat> solid, apart;
   const cv::Mat bridge = disc(bridge_mm, pixel_mm);
   for (int k = 0; k < mask.size.z; ++k) {
+    check_wanted(keep_going);
     cv::Mat slice(mask.size.y, mask.size.x, CV_8U);
     for (int j = 0; j < mask.size.y; ++j) {
       for (int i = 0; i < mask.size.x; ++i) {
@@ -123,11 +125,12 @@ BodyMask body_mask(const std::function<double(int, int, int)>& value_at, const g
     apart.push_back(std::move(eroded));
   }
   Pieces pieces;
-  const std::vector<cv::Mat> labels = label_pieces(apart, pieces);
+  const std::vector<cv::Mat> labels = label_pieces(apart, pieces, keep_going);
   const int body = pieces.largest();
   const cv::Mat one = disc(pixel_mm, pixel_mm);
   const int steps = static_cast<int>(std::lround((bridge_mm + hanging_mm) / pixel_mm));
   for (int k = 0; k < mask.size.z; ++k) {
+    check_wanted(keep_going);
     const auto n = static_cast<std::size_t>(k);
     cv::Mat slice = cv::Mat::zeros(mask.size.y, mask.size.x, CV_8U);
     for (int j = 0; j < slice.rows; ++j) {

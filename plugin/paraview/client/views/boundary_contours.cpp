@@ -213,8 +213,9 @@ void BoundaryContours::draw(One& one) {
   }
   one.hide_others(felt_->volume);
   one.job.ask(
-      [felt = felt_, points = points_of(*one.slice, *felt_->volume), slice = one.slice->slice()]() -> One::Drawn {
-        return {felt, felt_contours(felt->scene, *felt->plan, *felt->source, points), slice};
+      [felt = felt_, points = points_of(*one.slice, *felt_->volume),
+       slice = one.slice->slice()](const Job::Control& control) -> One::Drawn {
+        return {felt, felt_contours(felt->scene, *felt->plan, *felt->source, points, control.keep_going), slice};
       },
       [&one](const std::shared_ptr<const One::Drawn>& drawn, const QString&) {
         if (drawn) one.keep(drawn);

@@ -24,12 +24,14 @@ namespace {
 constexpr double least_part = 0.05;  // of a surface's strength: less is not drawn
 constexpr int block = 4;             // points across a block whose strength is looked up once
 
-vtkSmartPointer<vtkImageData> values_on(const io::FieldSource& source, const SlicePoints& points) {
+vtkSmartPointer<vtkImageData> values_on(const io::FieldSource& source, const SlicePoints& points,
+                                        const KeepGoing& keep_going) {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(points.columns, points.rows, 1);
   image->AllocateScalars(VTK_DOUBLE, 1);
   auto* value = static_cast<double*>(image->GetScalarPointer());
   for (int row = 0; row < points.rows; ++row) {
+    check_wanted(keep_going);
     for (int column = 0; column < points.columns; ++column) {
       const glm::dvec3 at =
           points.corner + static_cast<double>(column) * points.right + static_cast<double>(row) * points.up;
@@ -65,8 +67,8 @@ class StrengthMask {
   std::map<std::pair<int, int>, bool> blocks_;
 };
 
-void add_pieces(vtkImageData& image, double value, const SlicePoints& points, StrengthMask& mask,
-                FeltContour& contour) {
+void add_pieces(vtkImageData& image, double value, const SlicePoints& points, StrengthMask& mask, FeltContour& contour,
+                const KeepGoing& keep_going) {
   vtkNew<vtkFlyingEdges2D> lines;
   lines->SetInputData(&image);
   lines->SetValue(0, value);
@@ -76,6 +78,7 @@ void add_pieces(vtkImageData& image, double value, const SlicePoints& points, St
   vtkNew<vtkIdList> ends;
   found.GetLines()->InitTraversal();
   while (found.GetLines()->GetNextCell(ends) != 0) {
+    check_wanted(keep_going);
     for (vtkIdType n = 1; n < ends->GetNumberOfIds(); ++n) {
       std::array<glm::dvec3, 2> piece{};
       glm::dvec3 at[2];
@@ -92,7 +95,8 @@ void add_pieces(vtkImageData& image, double value, const SlicePoints& points, St
 }  // namespace
 
 std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
-                                       const io::FieldSource& source, const SlicePoints& points) {
+                                       const io::FieldSource& source, const SlicePoints& points,
+                                       const KeepGoing& keep_going) {
   std::vector<FeltContour> contours;
   if (points.columns < 2 || points.rows < 2 || !contains(source.available(), io::FieldSet::value)) return contours;
   vtkSmartPointer<vtkImageData> image;
@@ -101,9 +105,9 @@ std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::P
     const modes::Mode& mode = scene.modes[active.scene_index];
     FeltContour contour{.mode = active.scene_index};
     for (const double value : modes::met_values(mode, active.side)) {
-      if (!image) image = values_on(source, points);
+      if (!image) image = values_on(source, points, keep_going);
       StrengthMask mask(active.strength, source, modes::value_factor(mode, value));
-      add_pieces(*image, value, points, mask, contour);
+      add_pieces(*image, value, points, mask, contour, keep_going);
     }
     if (!contour.pieces.empty()) contours.push_back(std::move(contour));
   }

@@ -9,6 +9,7 @@
 #include "io/fields/field_source.h"
 #include "modes/scene/plan.h"
 #include "modes/scene/scene.h"
+#include "plugin/paraview/common/keep_going.h"
 
 namespace palpate::plugin {
 
@@ -27,8 +28,9 @@ struct FeltContour {
 
 /// The lines of every surface of the plan that has a gate over value. A piece is left out if the surface has no
 /// strength there, because the gradient is too small or the tissues differ. If the strength depends on fields that the
-/// source does not have, the piece is kept. On any thread; takes about a tenth of a second.
+/// source does not have, the piece is kept. On any thread; takes about a tenth of a second. Throws io::Cancelled.
 std::vector<FeltContour> felt_contours(const modes::Scene& scene, const modes::Plan& plan,
-                                       const io::FieldSource& source, const SlicePoints& points);
+                                       const io::FieldSource& source, const SlicePoints& points,
+                                       const KeepGoing& keep_going);
 
 }  // namespace palpate::plugin

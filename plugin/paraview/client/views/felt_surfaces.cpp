@@ -42,7 +42,7 @@ struct Coarse {
   vtkNew<vtkImageData> image;
 };
 
-void fill(const io::Volume& volume, Coarse& coarse) {
+void fill(const io::Volume& volume, Coarse& coarse, const KeepGoing& keep_going) {
   const glm::ivec3& size = volume.geometry.dimensions;
   const double voxels = static_cast<double>(size.x) * size.y * size.z;
   const int step = std::max(1, static_cast<int>(std::ceil(std::cbrt(voxels / most_voxels))));
@@ -55,6 +55,7 @@ void fill(const io::Volume& volume, Coarse& coarse) {
   coarse.image->AllocateScalars(VTK_FLOAT, 1);
   auto* value = static_cast<float*>(coarse.image->GetScalarPointer());
   for (int k = 0; k < points.z; ++k) {
+    check_wanted(keep_going);
     for (int j = 0; j < points.y; ++j) {
       for (int i = 0; i < points.x; ++i) {
         *value++ = static_cast<float>(volume.value_at(i * coarse.step.x, j * coarse.step.y, k * coarse.step.z));
@@ -88,7 +89,7 @@ class BlockStrength {
 };
 
 void add_surface(const Coarse& coarse, const io::Geometry& geometry, double value, BlockStrength& strength,
-                 FeltSurface& surface) {
+                 FeltSurface& surface, const KeepGoing& keep_going) {
   vtkNew<vtkFlyingEdges3D> edges;
   edges->SetInputData(coarse.image);
   edges->SetValue(0, value);
@@ -99,6 +100,7 @@ void add_surface(const Coarse& coarse, const io::Geometry& geometry, double valu
   const auto first = static_cast<int>(surface.points.size());
   std::vector<bool> there;
   for (vtkIdType n = 0; n < found.GetNumberOfPoints(); ++n) {
+    check_wanted(keep_going);
     glm::dvec3 at;
     found.GetPoint(n, &at.x);
     const glm::dvec3 place = geometry.to_patient(at * glm::dvec3(coarse.step));
@@ -110,6 +112,7 @@ void add_surface(const Coarse& coarse, const io::Geometry& geometry, double valu
   if (!polys) return;
   polys->InitTraversal();
   while (polys->GetNextCell(corners) != 0) {
+    check_wanted(keep_going);
     const std::array<vtkIdType, 3> of{corners->GetId(0), corners->GetId(1), corners->GetId(2)};
     if (!std::ranges::all_of(of, [&](vtkIdType n) { return there[static_cast<std::size_t>(n)]; })) continue;
     surface.triangles.push_back(
@@ -118,9 +121,10 @@ void add_surface(const Coarse& coarse, const io::Geometry& geometry, double valu
 }
 
 /// Of each point, the mean of its triangles', by their area.
-void add_normals(FeltSurface& surface) {
+void add_normals(FeltSurface& surface, const KeepGoing& keep_going) {
   surface.normals.assign(surface.points.size(), glm::vec3(0));
   for (const auto& [a, b, c] : surface.triangles) {
+    check_wanted(keep_going);
     const auto at = [&](int n) -> const glm::vec3& { return surface.points[static_cast<std::size_t>(n)]; };
     const glm::vec3 normal = glm::cross(at(b) - at(a), at(c) - at(a));
     for (const int n : {a, b, c}) surface.normals[static_cast<std::size_t>(n)] += normal;
@@ -134,7 +138,7 @@ void add_normals(FeltSurface& surface) {
 }  // namespace
 
 std::vector<FeltSurface> felt_surfaces(const io::Volume& volume, const modes::Scene& scene, const modes::Plan& plan,
-                                       const io::FieldSource& source) {
+                                       const io::FieldSource& source, const KeepGoing& keep_going) {
   std::vector<FeltSurface> surfaces;
   double strongest_n = 0;
   for (const modes::ActiveMode& active : plan.modes) {
@@ -153,10 +157,10 @@ std::vector<FeltSurface> felt_surfaces(const io::Volume& volume, const modes::Sc
                         .triangles = {}};
     BlockStrength strength(active.strength, source);
     for (const double value : modes::met_values(mode, active.side)) {
-      if (coarse.image->GetNumberOfPoints() == 0) fill(volume, coarse);
-      add_surface(coarse, volume.geometry, value, strength, surface);
+      if (coarse.image->GetNumberOfPoints() == 0) fill(volume, coarse, keep_going);
+      add_surface(coarse, volume.geometry, value, strength, surface, keep_going);
     }
-    add_normals(surface);
+    add_normals(surface, keep_going);
     if (!surface.triangles.empty()) surfaces.push_back(std::move(surface));
   }
   return surfaces;
@@ -273,8 +277,8 @@ void FeltSurfaces::draw() {
     return;
   }
   one_->job.ask(
-      [felt = felt_]() -> One::Drawn {
-        return {felt, felt_surfaces(*felt->volume, felt->scene, *felt->plan, *felt->source)};
+      [felt = felt_](const Job::Control& control) -> One::Drawn {
+        return {felt, felt_surfaces(*felt->volume, felt->scene, *felt->plan, *felt->source, control.keep_going)};
       },
       [one = one_.get()](const std::shared_ptr<const One::Drawn>& drawn, const QString&) {
         one->draw(drawn ? *drawn : One::Drawn());

@@ -22,9 +22,10 @@ struct FeltSurface {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// As felt_contours(), on the whole scan, on a lattice of at most some millions of its voxels.
+/// As felt_contours(), on the whole scan, on a lattice of at most some millions of its voxels. Takes up to seconds.
+/// Throws io::Cancelled.
 std::vector<FeltSurface> felt_surfaces(const io::Volume& volume, const modes::Scene& scene, const modes::Plan& plan,
-                                       const io::FieldSource& source);
+                                       const io::FieldSource& source, const KeepGoing& keep_going);
 
 /// Draws the surfaces. While they are visible, the scan is not.
 class FeltSurfaces {

@@ -29,45 +29,17 @@
 #include <utility>
 
 #include "plugin/paraview/client/jobs/job.h"
+#include "plugin/paraview/client/views/body_of.h"
 #include "plugin/paraview/client/views/castable.h"
 #include "plugin/paraview/client/views/crop_box.h"
 #include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/client/views/software_volume.h"
-#include "plugin/paraview/common/body_mask.h"
-#include "plugin/paraview/common/value_range.h"
 
 namespace palpate::plugin {
 namespace {
 
 vtkPVRenderView& render_view_of(const pqRenderView& view) {
   return *vtkPVRenderView::SafeDownCast(view.getRenderViewProxy()->GetClientSideView());
-}
-
-/// A copy of a CT with only the body; null if there is nothing else in it.
-vtkSmartPointer<vtkImageData> body_of(vtkImageData& image) {
-  vtkDataArray& values = *image.GetPointData()->GetScalars();
-  const int* const size = image.GetDimensions();
-  const auto at = [size](int i, int j, int k) { return (static_cast<vtkIdType>(k) * size[1] + j) * size[0] + i; };
-  const BodyMask body =
-      body_mask([&](int i, int j, int k) { return values.GetComponent(at(i, j, k), 0); }, {size[0], size[1], size[2]},
-                {image.GetSpacing()[0], image.GetSpacing()[1], image.GetSpacing()[2]}, Rim::one_voxel);
-  if (!body.left_something) return nullptr;
-  auto cut = vtkSmartPointer<vtkImageData>::New();
-  cut->CopyStructure(&image);
-  const auto kept = vtkSmartPointer<vtkDataArray>::Take(values.NewInstance());
-  kept->DeepCopy(&values);
-  double range[2];
-  values.GetRange(range, 0);
-  for (int k = 0; k < size[2]; ++k) {
-    for (int j = 0; j < size[1]; ++j) {
-      for (int i = 0; i < size[0]; ++i) {
-        if (!body.holds(i, j, k)) kept->SetComponent(at(i, j, k), 0, range[0]);
-      }
-    }
-  }
-  keep_range(*kept);
-  cut->GetPointData()->SetScalars(kept);
-  return cut;
 }
 
 }  // namespace
@@ -111,7 +83,7 @@ void PatientVolume::take_image() {
   seeking_body_.cancel();
   refresh();
   if (!seek_body) return;
-  seeking_body_.ask([image = whole_image_] { return body_of(*image); },
+  seeking_body_.ask([image = whole_image_](const Job::Control& control) { return body_of(*image, control.keep_going); },
                     [this](const auto& found, const QString&) {
                       if (found) cut_image_ = *found;
                       waits_ = false;
