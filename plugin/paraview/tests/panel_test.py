@@ -166,6 +166,7 @@ FOLDERS = {
     "a_flow_is_shown_and_felt": flow,
     "a_flow_is_drawn_as_a_volume": flow,
     "surfaces_are_of_the_frame_that_is_shown": spoilt_in_frames,
+    "a_recording_is_of_its_frame": spoilt_in_frames,
     "one_tab_is_used_again": both,
     "a_look_is_of_its_scan": both,
     # So fine that its lines take longer than the next picture.
@@ -252,6 +253,7 @@ SCENARIOS = [
     "a_curve_shows_its_force",
     "a_touched_boundary_shows_its_force",
     "recordings_are_replayed_and_compared",
+    "a_recording_is_of_its_frame",
     "no_scan_shown_no_force",
     "a_deleted_scan_comes_back",
     "what_was_deleted_is_not_in_the_state",

@@ -1503,6 +1503,14 @@
         <translation>%1 s sind ausgelassen: Sie wurden an einer anderen Aufnahme aufgezeichnet.</translation>
     </message>
     <message>
+        <source>%1 was not opened: another frame was chosen while it was read. Open it again to see what was recorded on this frame.</source>
+        <translation>%1 wurde nicht geöffnet: Beim Lesen wurde ein anderes Bild der Folge gewählt. Erneut öffnen, um zu sehen, was an diesem Bild aufgezeichnet wurde.</translation>
+    </message>
+    <message>
+        <source>%1 was closed: another frame is shown. Open it again to see what was recorded on this frame.</source>
+        <translation>%1 wurde geschlossen: Ein anderes Bild der Folge wird gezeigt. Erneut öffnen, um zu sehen, was an diesem Bild aufgezeichnet wurde.</translation>
+    </message>
+    <message>
         <source>%1 of %2 s</source>
         <translation>%1 von %2 s</translation>
     </message>

@@ -105,6 +105,7 @@ RecordingsSection::RecordingsSection(OpenViews& views, SessionController& sessio
     const auto& scan = session_.live().scan();
     return playback_.look(scan ? scan->unit : std::string());
   });
+  connect(&session, &SessionController::felt_scan_changed, this, [this] { follow_frame(); });
   connect(&session, &SessionController::polled, this, [this] { show_player(); });
   connect(&session, &SessionController::connection_changed, this, [this] {
     if (session_.live().is_connected()) playback_.pause();
@@ -196,11 +197,28 @@ void RecordingsSection::read(const QString& file, bool second) {
 }
 
 void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second) {
+  const auto scan = session_.live().scan();
   if (!opened) {
     tell(error, true);
-  } else if (const auto scan = session_.live().scan(); scan && opened->scan.lock() == scan) {  // else it has gone
+  } else if (!scan) {
+    tell(words(say("there-is-no-scan-to-see")), true);
+  } else if (opened->scan.lock() != scan) {
+    tell(tr("%1 was not opened: another frame was chosen while it was read. Open it again to see what was recorded on "
+            "this frame.")
+             .arg(opened->name),
+         true);
+  } else {
     second ? set_second(*opened) : set_first(*opened);
   }
+}
+
+/// What was recorded on another frame is not seen over this one.
+void RecordingsSection::follow_frame() {
+  const auto scan = session_.live().scan();
+  if (!first_.session || !scan || first_.scan.lock() == scan) return;
+  const QString name = first_.name;
+  set_first({});
+  tell(tr("%1 was closed: another frame is shown. Open it again to see what was recorded on this frame.").arg(name));
 }
 
 void RecordingsSection::set_first(Opened opened) {

@@ -39,6 +39,7 @@ class RecordingsSection : public QWidget {
   QWidget* build_player();
   void read(const QString& file, bool second);
   void take(const std::shared_ptr<const Opened>& opened, const QString& error, bool second);
+  void follow_frame();
   void close_all();
   void set_first(Opened opened);
   void set_second(Opened opened);

@@ -104,9 +104,36 @@ void recordings_are_replayed_and_compared() {
       "nothing is shown any more", [] { return label("palpateDepth") == "no stylus"; }, 20);
 }
 
+/// A recording of the first of two frames is not seen over the second.
+void a_recording_is_of_its_frame() {
+  const QString file = qEnvironmentVariable("PALPATE_PICTURES") + "/first-frame.h5";
+  QFile::remove(file);
+  scan_is_shown();
+  connect_stylus();
+  name_file("palpateRecord", file);
+  wait_for(
+      "it is being recorded", [] { return find<QPushButton>("palpateRecord").text() == "Stop recording"; }, 20);
+  stylus_rests();
+  click("palpateRecord");
+  auto& slider = find<QSlider>("palpateScrub");
+  wait_for(
+      "the recording is open", [&] { return label("palpateRecordingName") == "first-frame.h5" && slider.isVisible(); },
+      20);
+  expect(label("palpateRecordingMessage").isEmpty(),
+         "nothing is left out: " + label("palpateRecordingMessage").toStdString());
+  find<QSlider>("palpateFrame").setValue(1);
+  wait_for(
+      "the second frame is felt", [] { return label("palpateFelt").contains("2 of 2."); }, 20);
+  expect(!slider.isVisible() && label("palpateRecordingName").isEmpty(), "the recording is closed");
+  expect(label("palpateRecordingMessage").startsWith("first-frame.h5 was closed: another frame is shown."),
+         "and that is said: " + label("palpateRecordingMessage").toStdString());
+  save_screen("recording-closed");
+}
+
 }  // namespace
 
 const Scenarios& recording_scenarios() {
-  static const Scenarios all{{"recordings_are_replayed_and_compared", recordings_are_replayed_and_compared}};
+  static const Scenarios all{{"recordings_are_replayed_and_compared", recordings_are_replayed_and_compared},
+                             {"a_recording_is_of_its_frame", a_recording_is_of_its_frame}};
   return all;
 }
