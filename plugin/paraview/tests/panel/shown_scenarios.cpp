@@ -71,7 +71,9 @@ void no_scan_shown_no_force() {
   expect(label("palpateFelt").startsWith("Felt: CT "), "the panel names what is felt");
   save_screen("felt-named");
   set_scan_visible(false);
-  expect_stopped("no view shows the scan. Show it again (the eye in the Pipeline Browser), then press Feel");
+  expect_stopped(
+      "no view shows the scan. Show it again (its eye in ParaView's list of open data, the Pipeline Browser), then "
+      "press Feel");
   save_screen("no-scan-hidden");
   let_go();
   set_scan_visible(true);
@@ -89,7 +91,7 @@ void no_scan_shown_no_force() {
   second->updatePipeline();
   pqActiveObjects::instance().setActiveSource(second);
   expect_stopped("another scan, ");
-  expect_stopped(", is active in the Pipeline Browser. Choose ");
+  expect_stopped(", is chosen in ParaView's list of open data, the Pipeline Browser. Choose ");
   expect_stopped(" there, then press Feel");
   let_go();
   pqDataRepresentation* const also =
