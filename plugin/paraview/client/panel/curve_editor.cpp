@@ -172,11 +172,12 @@ void CurveEditor::set_frame(const Counts& counts, const QString& across, double 
   show_axes();
 }
 
+/// The ends of the range have as many decimals as the number of a node: a speed of 0 to 1.2 m/s is not "0 … 1".
 void CurveEditor::show_axes() {
   axes_->setText(QStringLiteral("→ %1,\u00a0%2\u00a0…\u00a0%3   ↑ %4,\u00a00\u00a0…\u00a0%5")
                      .arg(across_)
-                     .arg(counts_.bins.low, 0, 'f', 0)
-                     .arg(counts_.bins.high, 0, 'f', 0)
+                     .arg(counts_.bins.low, 0, 'f', at_->decimals())
+                     .arg(counts_.bins.high, 0, 'f', at_->decimals())
                      .arg(up_)
                      .arg(top_, 0, 'g', 3));
   axes_->setToolTip(axes_->text());

@@ -26,6 +26,7 @@
 #include <QObject>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSlider>
 
 #include <cmath>
@@ -224,6 +225,12 @@ void a_flow_is_shown_and_felt() {
   choose_series(row_with("velocity of"));
   expect(scene_text().find("\"follow\"") != std::string::npos, "the scene is of flow");
   expect(find<QCheckBox>("palpateOn0").isChecked(), "its modes can be switched");
+  // Speeds, and how they change per mm, are small numbers: the curve's ends are not rounded to whole ones.
+  wait_for("the curve's ends have decimals", [] {
+    const QRegularExpression ends(QStringLiteral("m/s.*, ([0-9]+[.][0-9]{2})[^0-9]+([0-9]+[.][0-9]{2})[^0-9]"));
+    const QRegularExpressionMatch match = ends.match(label("palpateStrengthCurveAxes").replace(QChar::Nbsp, ' '));
+    return match.hasMatch() && match.captured(1).toDouble() < match.captured(2).toDouble();
+  });
   save_screen("flow");
   connect_stylus();
   expect(number("palpateForce") < 0.05, "nothing is felt where it begins");
