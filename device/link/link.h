@@ -16,9 +16,9 @@ class Link {
   Link& operator=(const Link&) = delete;
   virtual ~Link() = default;
 
-  /// s, never decreasing. The link's own, so that a fake can run faster than the clock.
+  /// The link's own time, s; never decreasing. With it a fake can run faster than the clock.
   virtual double now() noexcept = 0;
-  /// The next packet that arrived, waiting for it at most `timeout` s; 0 if there is none.
+  /// Waits at most `timeout` s for the next packet. Returns its size; 0 if none has come.
   virtual std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept = 0;
   /// Hands a packet over without waiting; false if the previous one has not been sent yet.
   virtual bool send(std::span<const std::uint8_t> packet) noexcept = 0;

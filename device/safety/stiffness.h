@@ -10,7 +10,7 @@ struct RenderingDynamics {
   double coulomb_friction = 0;  ///< N
   double position_step = 0;     ///< m
   double period = 1e-3;         ///< s: the servo tick
-  double delay = 0;             ///< s: from reading the pose to the force at the arm, beyond the hold
+  double delay = 0;             ///< s: from reading the pose to the force at the arm, without the zero-order hold
 };
 
 /// N/m, all of them.

@@ -34,8 +34,8 @@ Text why_not_decoded(const std::string& transfer_syntax);
 /// more than 8 GiB. `bytes_out` is the claimed size, `bytes_in` the file's.
 void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in);
 
-/// Decodes one frame: `values` holds rows * columns. Returns, in words for the user, a breach of the standard in the
-/// stream that leaves the pixels readable; empty if there is none. Throws DicomError with the reason if the stream is
+/// Decodes one frame: `values` holds rows * columns. If the stream breaks the standard but its pixels can be read,
+/// returns a text that tells the user so; otherwise an empty one. Throws DicomError with the reason if the stream is
 /// damaged or the image's size is not that of the header.
 Text decode_frame(const std::string& transfer_syntax, const PixelFormat& format, std::span<const std::byte> bytes,
                   std::span<std::uint16_t> values);

@@ -18,7 +18,7 @@ class PixelReader {
 
   /// The stored values of a whole frame of the file (all tiles of a mosaic): rows * columns of them, sign extended.
   /// Bits outside BitsStored, such as overlays, are removed, except where padding needs them. Signed values must be
-  /// read as int16. Returns the words of decode_frame(). Throws DicomError with a reason that does not name the file.
+  /// read as int16. Returns the text of decode_frame(). Throws DicomError with a reason that does not name the file.
   Text read(std::uint32_t frame, std::span<std::uint16_t> values);
 
   /// The stored values of a frame with wide values (PixelFormat::is_wide); such frames are uncompressed, RLE or

@@ -26,8 +26,8 @@ std::shared_ptr<const Volume> raw_of(const std::shared_ptr<const Volume>& volume
 /// The filter of a filtered volume; none for any other.
 Filter filter_of(const Volume& volume);
 
-/// The same values, with the same bits, for the slices first ... last alone: rescaled, slice by slice. `filter` must
-/// not be none.
+/// The same values, with the same bits, for the slices first ... last alone: rescaled values, one slice after the
+/// other. `filter` must not be none.
 std::vector<float> filtered_slices(const Volume& raw, const Filter& filter, int first, int last);
 
 }  // namespace palpate::io

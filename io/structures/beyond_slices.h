@@ -4,9 +4,9 @@
 
 namespace palpate::io {
 
-/// Whether a point is no more than half a voxel beyond the scan's voxel centers along the scan's axis that is nearest
-/// to the normal (of oblique planes, that one alone); true without a scan. Beside the scan nothing is seen either, but
-/// planes there still end where others do.
+/// Whether the scan covers a point along the one axis of the scan that is nearest to `normal`: whether the point is at
+/// most half a voxel beyond the voxel centers. True without a scan. The other two axes are not checked: beside the scan
+/// nothing is known either, but the stack of planes ends there at the same height as elsewhere.
 bool is_seen(const DistanceOptions& options, const Vec3& position_mm, const Vec3& normal);
 
 }  // namespace palpate::io

@@ -47,7 +47,7 @@ struct Patch {
     const std::int32_t slot = old.near.slot_at(at.x, at.y, at.z);
     return slot < 0 ? nullptr : old.brick[static_cast<std::size_t>(slot)];
   }
-  /// Whether a point of the lattice (mm along its axes from the box) is where the surface may change.
+  /// Whether the surface may change at this point (mm along the lattice's axes, from the box's corner).
   bool is_touched(const Vec3f& at) const {
     const glm::ivec3 place(glm::floor(Vec3(at) / (bricks.lattice.spacing * static_cast<double>(NodeBricks::edge))));
     if (!holds(place)) return false;
@@ -63,9 +63,9 @@ struct Patch {
 /// The box of bricks within `around_mm` of the stretches, with those inside the change marked.
 Patch patch_around(const DistanceParts& old, const FieldChange& change, double around_mm);
 
-/// Evaluates the bricks within the change, and selects those to be measured again: all within `around_mm` of a brick
-/// that the old or new surface crosses, and within the same distance of the moved part. Returns false if the surface
-/// crosses none.
+/// Evaluates the bricks within the change, and selects those to be measured again. Each of them is within `around_mm`
+/// of the moved part, and within `around_mm` of a brick that the old or new surface crosses. Returns false if the
+/// surface crosses none.
 bool choose_bricks(Patch& patch, double around_mm, int threads, std::vector<char>& passed);
 
 /// Measures the distance in these bricks.

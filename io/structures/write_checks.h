@@ -14,7 +14,7 @@ inline Existing existing(const WriteOptions& options) {
   return options.overwrite ? Existing::replace : Existing::keep;
 }
 
-/// Throws DicomError if the file is the one that was corrected, or check_may_write() does.
+/// Throws DicomError if the file is the one that was corrected. Throws as check_may_write() does.
 void check_target(const StructureLabel& label, const std::filesystem::path& file, const WriteOptions& options);
 
 /// The first and the last slice with a voxel inside. Throws DicomError if there is none.

@@ -37,8 +37,9 @@ inline constexpr double level_reach_mm = 1.0;
 inline constexpr double sub_step_mm = 0.1;
 inline constexpr int most_sub_steps = 8;
 /// The longest jump of the proxy between two samples when a surface yields, mm of patient: less than the thinnest
-/// boundary that a CT can show. Then the most halts of a tick.
+/// boundary that a CT can show.
 inline constexpr double proxy_step_mm = 0.125;
+/// The largest number of halts in a tick.
 inline constexpr int most_halts = 32;
 
 }  // namespace palpate::modes::defaults

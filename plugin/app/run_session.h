@@ -21,7 +21,7 @@ struct SessionRun {
   PreparedScene felt;  ///< the scene on the scan
   std::string scan_hash;
   std::string unit;                        ///< the scan's
-  ScanFrame frame;                         ///< the frame of its series that the scan is
+  ScanFrame frame;                         ///< which frame of its series the scan is
   std::shared_ptr<device::Stylus> stylus;  ///< may be open; closed at the end
   std::uint64_t seed = 0;
   double seconds = 0;  ///< 0: until it is interrupted

@@ -36,8 +36,8 @@ class Server {
     std::shared_ptr<const void> counted = nullptr;  ///< while it exists, the message's bytes count as taken
   };
 
-  /// Listens. A request is refused while the ones before it, until they are destroyed, would take more than
-  /// `most_bytes` with it. Throws Refusal that names the address and what to do.
+  /// Listens. Requests count until they are destroyed. A new one is refused if others still count and would take more
+  /// than `most_bytes` together with it. Throws Refusal that names the address and what to do.
   explicit Server(const Address& address, std::size_t most_bytes = most_request_bytes);
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

@@ -65,8 +65,8 @@ Percentiles percentiles_of(std::vector<double> values);
 
 Summary summarize(const Recording& recording, const modes::Plan& plan);
 
-/// The uncertainty of a felt boundary's position there, mm. None if the source has no gradient, or if the value does
-/// not rise there.
+/// The uncertainty of a felt boundary's position at this place, mm. None if the source has no gradient, or if the value
+/// does not rise there.
 std::optional<double> known_to_mm(const io::FieldSource& source, const io::Geometry& geometry,
                                   const modes::Scene& scene, const glm::dvec3& place_mm);
 /// "; known to 0.2 mm", or nothing.

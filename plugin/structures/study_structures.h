@@ -68,8 +68,8 @@ struct Snap {
   std::optional<HeldPlane> plane = {};  ///< holds the stylus in it, from both sides; none: not held
 };
 /// Adds or changes a surface at the scan's edges within 6 mm of the outline. It holds on the way in, at the value
-/// half-way up the edge; if that value is unknown, both ways and on the flank of an edge. That near to the outline the
-/// plane holds, too, more strongly than hand and edge together push.
+/// half-way up the edge; if that value is unknown, it holds in both directions, wherever the gradient is steep enough.
+/// Within the same 6 mm the plane holds the stylus, too, with more force than hand and edge together push.
 void snap_to_scan(modes::Scene& scene, const io::Structure& structure, const Snap& snap);
 /// The plane in which a scene holds the stylus at this structure; none: not held.
 std::optional<HeldPlane> held_plane(const modes::Scene& scene, const io::Structure& structure);

@@ -41,7 +41,7 @@ struct Symmetric3 {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }
 
-  /// L D L^T without pivoting; a pivot below `floor` through rounding becomes `floor`.
+  /// L D L^T without pivoting; a pivot that rounding has made smaller than `floor` becomes `floor`.
   Vec3 solve(const Vec3& b, double floor = 0) const {
     const double d1 = std::fmax(xx, floor);
     const double l21 = xy / d1;

@@ -21,13 +21,13 @@ class MarkButton {
   }
   /// Releases the button after at least one tick has seen it pressed.
   void let_go() { letting_go_ = true; }
-  /// Cancels a press: until the button is seen released it makes no mark.
+  /// Cancels a press. The button makes no mark until a tick shows it released.
   void forget() {
     live_.press(0);
     letting_go_ = false;
     drop();
   }
-  /// Hand and patient are separated by the clutch: cancels a press, but the button may stay pressed.
+  /// The clutch separates hand and patient: cancels a press, but the button may stay pressed.
   void drop() {
     presses_.drop();
     is_cut_off_ = true;

@@ -8,8 +8,8 @@ class pqPipelineSource;
 
 namespace palpate::plugin {
 
-/// Sets a text property of a source, for traces and state files. One step that can be undone, named `what` in
-/// ParaView's menu; if `what` is empty, no step.
+/// Sets a text property of a source, for traces and state files. Makes one undo step, named `what` in ParaView's menu;
+/// none if `what` is empty.
 void keep_text(pqPipelineSource& source, const char* property, const std::string& text, const QString& what);
 
 /// The same without trace and step.

@@ -6,8 +6,8 @@
 
 namespace palpate::plugin {
 
-/// Asks for a color, over the widget's window. Returns at once: while the dialog is open the scan may become another
-/// one, and the widget may go.
+/// Asks for a color, over the widget's window. Returns at once. While the dialog is open, another scan may be opened,
+/// and the widget may be deleted.
 inline void ask_color(const QWidget& widget, const QString& title, const QColor& now,
                       const std::function<void(const QColor&)>& chosen) {
   auto* const dialog = new QColorDialog(now, widget.window());

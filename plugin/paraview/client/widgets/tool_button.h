@@ -5,7 +5,7 @@
 
 namespace palpate::plugin {
 
-/// At the end of a row; `act` is called when it is clicked.
+/// Adds a button at the end of a row; `act` is called when it is clicked.
 template <typename Act>
 QToolButton* add_tool_button(QBoxLayout& row, QWidget& parent, const char* name, const QString& text,
                              const QString& tip, Act act) {
