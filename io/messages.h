@@ -9,7 +9,7 @@
 
 namespace palpate::io {
 
-/// The message with this id, with these values in its places.
+/// The message with this id, with these values in place of its {}.
 template <typename... Values>
 Text say(
     std::type_identity_t<ChosenMessage<sizeof...(Values), messages::archives, messages::series, messages::structures>>

@@ -7,13 +7,14 @@
 
 namespace palpate::io {
 
-/// The index of the quantile of a fraction (0 to 1) among `count` values in ascending order; the upper of two.
-/// Never beyond the last. `count` must be above 0.
+/// The index of the quantile of a fraction (0 to 1) among `count` values in ascending order; the upper one if it lies
+/// between two. Never beyond the last. `count` must be above 0.
 inline std::size_t quantile_place(std::size_t count, double fraction) {
   return std::min(static_cast<std::size_t>(fraction * static_cast<double>(count)), count - 1);
 }
 
-/// The quantile of a fraction (0 to 1), such as 0.5 for the median; the upper one of two values. 0 without values.
+/// The quantile of a fraction (0 to 1), such as 0.5 for the median; the upper value if it lies between two. 0 without
+/// values.
 inline double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(quantile_place(values.size(), fraction));

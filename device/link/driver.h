@@ -1,7 +1,7 @@
 #pragma once
 
-/// A device as the thread of a LinkStylus drives it: it exchanges packets (packet_driver.h), or is reached through its
-/// maker's library.
+/// The interface through which the thread of a LinkStylus drives a device. The driver exchanges packets with it
+/// (packet_driver.h), or calls its maker's library.
 
 #include "device/link/protocol.h"
 #include "device/stylus.h"

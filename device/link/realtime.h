@@ -49,7 +49,7 @@ double monotonic_time() noexcept;
 
 /// s that the machine has slept since it was started. CLOCK_MONOTONIC stands still then, so no age shows it.
 double time_asleep() noexcept;
-/// The same from any readings: ns of CLOCK_BOOTTIME and of CLOCK_MONOTONIC, by the clock's id.
+/// The same, computed from the times (ns) that `read_ns` returns for CLOCK_BOOTTIME and CLOCK_MONOTONIC.
 double time_asleep_by(std::int64_t (*read_ns)(clockid_t)) noexcept;
 
 }  // namespace palpate::device

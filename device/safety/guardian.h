@@ -3,7 +3,7 @@
 /// A small process that takes the force away when the session's process is killed, crashes, or is stopped while the
 /// stylus pushes (Ctrl-Z, a debugger). A pipe and a shared count of the exchanges with the device join the two. When
 /// the pipe ends or the count stands still, the guardian opens the device and sends zeros. A device that was unplugged
-/// gets them when it comes back. The guardian proves itself before the first force, and its loss is a fault.
+/// gets them when it comes back. The guardian proves before the first force that it works, and its loss is a fault.
 
 #include <cstdint>
 #include <memory>
@@ -75,8 +75,9 @@ class Guardian {
 /// Null if no program is named. Throws std::runtime_error if it cannot be started.
 std::unique_ptr<Guardian> start_guardian(const GuardianSettings& settings);
 
-/// Whether a guardian of this user can leave the session's control group: a systemd runs the user's scopes. If not,
-/// what ends the whole group (the end of a container, an out-of-memory killer) ends both.
+/// Whether a guardian of this user can leave the session's control group: this needs a systemd that runs the user's
+/// scopes. If it cannot, anything that ends the whole group (the end of a container, an out-of-memory killer) ends both
+/// session and guardian.
 bool guardian_can_leave_group();
 
 /// The path of palpate-guardian: $PALPATE_GUARDIAN if it is set; else the first of guardian_candidates() that exists.
@@ -84,7 +85,7 @@ bool guardian_can_leave_group();
 std::string guardian_program();
 
 /// Places of palpate-guardian, in the order of search: beside `program`; beside the plug-in or program `loaded_from`;
-/// in bin and libexec/palpate of every folder above it, which finds a build's and an installed one; and at `installed`.
+/// in bin and libexec/palpate of every folder above it, where a build and an installation have it; and at `installed`.
 std::vector<std::string> guardian_candidates(const std::string& program, const std::string& loaded_from,
                                              const std::string& installed);
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The memory that a session and its guardian share: each has a counter for the other, and the guardian's has a proof.
+/// The memory that a session and its guardian share. Each counts up a counter that the other reads. The guardian also
+/// writes a proof.
 
 #include <atomic>
 #include <cstdint>

@@ -11,11 +11,11 @@ namespace palpate::device {
 class GuardianWatch {
  public:
   static constexpr int look_every_ms = 20;
-  /// A session that stops counting for this long is stopped.
+  /// A session that has not counted for this long counts as stopped.
   static constexpr int stopped_after_ms = 200;
   static constexpr int looks_until_stopped = stopped_after_ms / look_every_ms;
 
-  /// `beat`: the session's counter; null if it shares none, which never counts as stopped.
+  /// `beat`: the session's counter. Null if the session shares none; it then never counts as stopped.
   explicit GuardianWatch(const GuardianBeat* beat) : beat_(beat) {}
   /// Call it every look_every_ms. True from the poll at which the session has been stopped for looks_until_stopped
   /// polls, until it continues.

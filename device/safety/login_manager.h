@@ -19,7 +19,7 @@ class LoginManager {
 
   /// Handles the messages that have arrived. Call it every few hundredths of a second.
   void look() noexcept;
-  /// From the announcement of a sleep until the machine is awake again.
+  /// True from the announcement of a sleep until the machine is awake again.
   bool sleep_is_near() const noexcept { return sleep_is_near_; }
   bool holds_lock() const noexcept { return lock_ >= 0; }
   /// Releases the lock, once no force is on the device. A new one is taken when the machine is awake again.

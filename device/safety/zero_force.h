@@ -7,13 +7,13 @@
 
 namespace palpate::device {
 
-/// s until the next attempt to reach a device that could not be reached for `seconds`. At first none, because a session
-/// that is ending may release it at any moment; later it is longer. A device that is plugged in again keeps its force
-/// for less than 0.3 s in any case.
+/// s until the next attempt to reach a device that could not be reached for `seconds`. At first there is no pause,
+/// because a session that is ending may release the device at any moment; later the pauses are longer. A device that is
+/// plugged in again keeps its force for less than 0.3 s in any case.
 double pause_after(double seconds) noexcept;
 
-/// Repeats `try_once` with these pauses until it succeeds. False as soon as `gives_up(s since the first attempt)`;
-/// there is always one attempt.
+/// Repeats `try_once` with these pauses until it succeeds. Returns false as soon as `gives_up(s since the first
+/// attempt)` does not want to go on; there is always one attempt.
 bool keep_trying(const std::function<bool()>& try_once, const std::function<bool(double)>& gives_up,
                  const DriverClock& clock = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A stylus that exists only in arithmetic: a simulated arm, held by a simulated hand. The hand follows a scripted path
+/// A stylus without hardware: both the arm and the hand that holds it are simulated. The hand follows a scripted path
 /// or a live target, and is moved by the forces that are written.
 ///
 /// It advances by simulated time, never by the clock: each read() and write_force() pair is one tick of 1 / rate, so

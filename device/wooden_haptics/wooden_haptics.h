@@ -40,7 +40,7 @@ struct WoodenHapticsSettings {
 };
 
 /// "2015" and "2019" are the arms of haptikfabrikenapi (reports of 14 bytes), and "woody" is its default. "2016" is the
-/// arm of woody-experimental (8 bytes); its firmware counts, and its board turns, the other way. Throws
+/// arm of woody-experimental (8 bytes); its encoder counts and its motors' directions have other signs. Throws
 /// std::runtime_error with the list of names for any other.
 WoodenHapticsSettings wooden_haptics_preset(const std::string& name);
 /// Throws std::runtime_error naming the file, the key and what is wrong with it. The key "preset" is needed; keys that
@@ -60,8 +60,8 @@ std::array<int, 3> wooden_haptics_currents(const WoodenHapticsSettings& settings
 
 /// The stylus is not open yet. open() throws std::runtime_error naming the device and what to do. The state is
 /// State::homing, without force, until the user has put the arm into its home pose and pressed its calibration button.
-/// Pressed later, the button is the fault LinkFault::unhomed.
-/// Firmware of 2016 reports no button: the pose in which the arm is opened counts as the home pose.
+/// If the button is pressed later, that is the fault LinkFault::unhomed. Firmware of 2016 reports no button: the pose
+/// in which the arm is opened counts as the home pose.
 std::unique_ptr<Stylus> make_wooden_haptics(const WoodenHapticsSettings& settings);
 
 }  // namespace palpate::device

@@ -25,8 +25,8 @@ struct FetchProgress {
   int expected = -1;  ///< number of images by the archive's count; -1: unknown
 };
 
-/// Called with the progress at least once a second, by one thread at a time: the one that called fetch(), or that which
-/// watches its connection. Returns false to cancel.
+/// Called with the progress at least once a second, by one thread at a time: the thread that called fetch(), or the one
+/// that watches its connection. Returns false to cancel.
 using FetchWatcher = std::function<bool(const FetchProgress&)>;
 
 struct FetchedSeries {

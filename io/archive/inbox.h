@@ -34,8 +34,8 @@ class Inbox {
   std::uint16_t store(T_ASC_Association& association, Watch& watch, int silence_s, const Command& command,
                       const KeepGoing& keep_going, OFCondition& broken);
 
-  /// The number of the wanted study's or series' images that came since the last expect(): also those that had come
-  /// before, for another.
+  /// The number of images of the wanted study or series that came since the last expect(). An image counts even if it
+  /// had come before, when another study or series was expected.
   std::size_t came() const noexcept { return came_.load(std::memory_order_relaxed); }
   std::size_t files() const noexcept { return files_.load(std::memory_order_relaxed); }
   std::uint64_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }

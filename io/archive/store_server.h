@@ -30,7 +30,7 @@ class StoreServer {
   std::string turned_away();
 
  private:
-  /// While it exists, the server's end ends this association.
+  /// While it exists, stopping the server also ends this association.
   class Active {
    public:
     Active(StoreServer& server, Watch& watch);

@@ -47,7 +47,7 @@ class Watch {
   bool ended() const noexcept { return ended_.load(std::memory_order_relaxed); }
   /// Ends the connection at once.
   void end() noexcept;
-  /// Whether it was ended because nobody wanted to go on.
+  /// Whether it was ended because a question whether to go on was answered with no.
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
 
   /// While it exists, the watch asks once a second whether to go on, also while a message part is being waited for. The

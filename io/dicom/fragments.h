@@ -20,9 +20,10 @@ struct Encapsulated {
 };
 
 /// The fragments of each frame. `pixels_at` is the offset of PixelData's value, which starts with the basic offset
-/// table. If there is one fragment for each frame, these are the frames. Else the offset table separates them, else the
-/// fragments that start a new JPEG, JPEG-LS or JPEG 2000 stream. Throws DicomError if the file is truncated or the
-/// fragments do not make up that many frames.
+/// table. If there are as many fragments as frames, each fragment is a frame. Otherwise the offset table gives the
+/// first fragment of each frame. If it is missing or inconsistent, a frame begins at each fragment that starts a new
+/// JPEG, JPEG-LS or JPEG 2000 stream. Throws DicomError if the file is truncated or the fragments do not make up that
+/// many frames.
 Encapsulated find_fragments(const InputFile& file, std::uint64_t pixels_at, std::size_t frames);
 
 /// The bytes of a frame, its fragments joined.

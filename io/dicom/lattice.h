@@ -23,7 +23,7 @@ Lattice lattice_of(const SeriesSource& source, const std::vector<SeriesSource::S
 
 struct Overlap {
   std::size_t slices = 0;  ///< of the stack with fewer slices inside the other's extent
-  bool coincide = false;   ///< most of these are at a slice of the other
+  bool coincide = false;   ///< most of these lie at the height of a slice of the other stack
   bool shifted = false;    ///< each stack extends beyond the other
   double distance = 0;     ///< mm, the median distance from a slice to the nearest of the other stack
 };

@@ -41,7 +41,7 @@ struct PixelElement {
 };
 
 struct DatasetShape {
-  std::uint64_t header_end = 0;  ///< bytes before the pixel data; without it, before its place or the end
+  std::uint64_t header_end = 0;  ///< bytes before the pixel data, or before the place where it would be
   std::optional<PixelElement> pixels;
   /// The places of the wanted outermost elements before the pixels. Adjoining elements form one stretch.
   struct Stretch {

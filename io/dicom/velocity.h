@@ -23,7 +23,8 @@ std::optional<VelocityEncoding> velocity_of(const std::vector<double>& direction
 
 /// The velocity encoding of a single-frame image: from the standard's attributes, or from Siemens' sequence name
 /// (..._v150fh: 150 cm/s, feet to head), which also becomes the plane's label. No public document defines the sign of a
-/// flow along these letters; it is taken as they read (feet to head is positive), and `header` gets a remark.
+/// flow along these letters. The order of the letters is taken as the positive direction (here from feet to head), and
+/// `header` gets a remark.
 void read_classic_velocity(DcmItem& dataset, FileHeader& header, Plane& plane);
 
 /// Joins series (or frames of one) of one study and grid that hold velocities along three independent directions,

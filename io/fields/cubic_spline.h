@@ -4,8 +4,8 @@
 ///
 /// Along an axis of the grid it is a mixture of the B-spline, which blurs by a standard deviation of 0.58 voxels, and
 /// the Catmull-Rom spline, which interpolates the voxels and does not blur. The B-spline's part is 1 along the axis
-/// with the finest voxels. Along the others it is such that the blur has the same width in mm, so thick slices, whose
-/// blur would shift a curved boundary, are not blurred further. All mixtures are exact on linear fields and smooth, and
+/// with the finest voxels. Along the other axes it is chosen so that the blur has the same width in mm. So thick slices
+/// are not blurred further: that would shift a curved boundary. All mixtures are exact on linear fields and smooth, and
 /// the gradient is that of the returned value. Source: D. P. Mitchell and A. N. Netravali, "Reconstruction filters in
 /// computer graphics", SIGGRAPH 1988: the kernels with B + 2 C = 1, whose variance is B / 3 voxels squared.
 
@@ -29,8 +29,8 @@ Vec3 b_spline_part(const Geometry& geometry) noexcept;
 
 /// In a cell of the volume (cell.h); part: the result of b_spline_part() for its geometry. Missing voxels of the
 /// stencil (beyond the edge, in padding, behind missing slices) are extrapolated linearly, so linear fields stay exact
-/// to the edge. They are also exact between uneven slices; there the gradient is that of the value to first order. If
-/// all 64 voxels are equal, so is the value, to the last bit. In the tick.
+/// to the edge. Linear fields are also exact between uneven slices; there the gradient is that of the value to first
+/// order. If all 64 voxels are equal, so is the value, to the last bit. In the tick.
 ValueAndGradient cubic_spline(const Volume& volume, const internal::Cell& cell, const Vec3& part) noexcept;
 
 /// The same value, without its gradient. In the tick.

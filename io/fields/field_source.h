@@ -79,8 +79,8 @@ struct Sample {
   Vec3 tube{0};      ///< unit vector along the tube, or zero
   double low = 0;    ///< value on the thinner side of the boundary
   double high = 0;   ///< value on the denser side
-  /// Whether the gradient was read from a precomputed brick. If not, it was computed at the sample: slower, with the
-  /// same bits.
+  /// Whether the gradient was read from a precomputed brick. If not, it was computed directly at this point: slower,
+  /// with the same bits.
   bool from_brick = false;
   Distances distance;
 };

@@ -48,7 +48,7 @@ struct Block {
 class GradientKernel {
  public:
   struct CentralDifferences {};
-  /// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than 64 voxels, and another
+  /// Throws std::invalid_argument for a scale that is not above 0 or reaches over more than 64 voxels, and
   /// std::logic_error without a volume.
   GradientKernel(std::shared_ptr<const Volume> volume, double scale_mm);
   /// Central differences. Throws std::logic_error without a volume.

@@ -61,7 +61,7 @@ struct CountedEdge {
   glm::vec3 gradient{0};  ///< patient space, per mm
   int low = 0, high = 0;  ///< bins
 };
-/// Receives the edges above the first least magnitude in batches, in any order; several threads may call it.
+/// Receives the edges above the first of the least magnitudes in batches, in any order; several threads may call it.
 using EdgeUse = std::function<void(std::span<const CountedEdge>)>;
 
 /// Counts the voxels with a gradient above the least magnitude (per mm), except padding. Of a volume with more than

@@ -16,7 +16,7 @@ namespace palpate::io::internal {
 
 class PaddedFits {
  public:
-  /// `rows`: of the largest tile. `planes`: the number of slices, the latest ones, whose sums are kept.
+  /// `rows`: of the largest tile. `planes`: how many of the latest slices' sums are kept.
   PaddedFits(const SliceKernel& kernel, const Fits& fits, int rows, int planes);
 
   void start(const Block& tile, const PaddingMap& map);

@@ -14,7 +14,7 @@ namespace palpate::io {
 
 struct ReferencedImage {
   std::string sop_class, instance;
-  std::string series_uid;  ///< of several, where the series was joined from them
+  std::string series_uid;  ///< the image's own: a scan may be joined from several series
 };
 
 struct StudyHeader {

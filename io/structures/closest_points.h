@@ -1,6 +1,6 @@
 #pragma once
 
-/// Makes the distance from a surface, given as the zero of a field, from each node's closest point on the surface. The
+/// Computes the distance from a surface, from each node's closest point on it. The surface is the zero of a field. The
 /// field itself is not a distance where a structure is thin or hollow.
 
 #include <glm/vec3.hpp>

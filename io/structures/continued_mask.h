@@ -10,8 +10,9 @@ namespace palpate::io {
 /// The position of a slice's first voxel, mm. Beyond the lattice the slices go on by the nearest step.
 Vec3 slice_position(const Geometry& geometry, int k);
 
-/// A mask with the voxels beyond its lattice. Programs crop the lattice to the structure, so there it is empty, but not
-/// where the scan ends, too: there it is unknown whether the structure goes on, and it is continued as it ends.
+/// A mask with the voxels beyond its lattice. Programs crop the lattice to the structure, so the mask is empty beyond
+/// it. But if the scan ends there, too, it is unknown whether the structure goes on. Then the mask is continued with
+/// the shape of its end.
 class ContinuedMask {
  public:
   /// Both must outlive it. `scan`: the scan that is felt with it. Null: the lattice is all that was seen.

@@ -35,8 +35,8 @@ struct ContourStack {
 /// area. A missing plane between two others is not an empty one: the surface goes on through it.
 ContourStack stack_of(const std::vector<Contour>& contours, const ContourRule& rule = {});
 
-/// The extent of the scan's voxels along the normal of the contours, mm: of the axes nearest to it. A single plane is
-/// that thick if nothing else says so.
+/// The size of the scan's voxels along the scan's axis that is nearest to the normal of the contours, mm. A single
+/// plane has this thickness if nothing else gives one.
 double thickness_of_voxels(const Geometry& scan, const Vec3& normal);
 
 /// Whether two neighboring planes at that distance (mm) belong to one body. If not, the bodies end between them.

@@ -34,8 +34,8 @@ struct EditOptions {
 
 /// The result of an edit, to be shown to the user.
 struct EditOutcome {
-  double largest_mm = 0;   ///< bound on how far the edge moved: the largest change of a traced or moved point; of what
-                           ///< is joined or cut, how far its surface lies from the old edge. 0 for a new structure
+  double largest_mm = 0;   ///< bound on how far the edge moved: the largest change of a traced or moved point; for add
+                           ///< and remove, the largest distance of the tube's surface from the old edge; 0 for contours
   std::size_t points = 0;  ///< points that the edge was put through; for scan_edge: sampled places
   std::size_t without_edge = 0;  ///< for scan_edge: places at which the scan has no edge; the outline stays there
   std::size_t held_back = 0;  ///< for scan_edge: places where the outline stops short of the edge by more than 0.5 mm

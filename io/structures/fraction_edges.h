@@ -5,8 +5,9 @@
 namespace palpate::io {
 
 /// The distance of a voxel's center from the edge, mm, positive inside, from the fractions of this voxel and its
-/// neighbors; of a share of a slab, from the slab's middle (which is the slice where the steps beside it are alike).
-/// NaN if they do not determine it (no fraction, or no edge nearby). The index is of the whole lattice, or beyond it.
+/// neighbors. For Fractions::occupancy the voxel is a slab that reaches half of the way to the neighboring slices, and
+/// the distance is that of the slab's middle (its slice, if both steps are equal). NaN if the fractions do not
+/// determine it (no fraction, or no edge nearby). The index is of the whole lattice, or beyond it.
 float edge_distance(const ContinuedMask& mask, int i, int j, int k);
 
 /// The same for one box of `size` mm that a plane with this normal (inward, of any length) cuts so that `share` of the

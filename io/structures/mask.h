@@ -19,7 +19,7 @@ struct Mask {
 
   Geometry geometry;                    ///< of the whole lattice
   bool has_no_thickness = false;        ///< one slice, and the file does not say how thick it is
-  std::vector<int> assumed_slices;      ///< that the file does not hold, ascending: they are taken to be there, empty
+  std::vector<int> assumed_slices;      ///< slices that the file does not hold, ascending: they count as empty slices
   glm::ivec3 low{0};                    ///< first voxel of the box
   glm::ivec3 size{0};                   ///< voxels of the box
   std::vector<std::uint8_t> occupancy;  ///< of the box, i fastest: the fraction inside, 0 to full

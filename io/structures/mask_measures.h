@@ -9,7 +9,7 @@ namespace palpate::io {
 /// DicomError if there is none.
 StructureMeasures measures_of(const Mask& mask);
 
-/// mm: from a slice to the next along their normal; beyond the ends as far as between the outermost two.
+/// mm: from a slice to the next along their normal; beyond the ends, the distance of the two outermost slices.
 double step_after(const Geometry& geometry, int k);
 
 }  // namespace palpate::io

@@ -17,7 +17,7 @@ class MaskSource : public StructureSource {
  private:
   /// The mask of a structure on its file's grid. Empty if no voxel is inside.
   virtual Mask mask_of(int number) const = 0;
-  /// In the scan's frame of reference, and on its slices if it was outlined on them.
+  /// The mask in the scan's frame of reference, and on the scan's slices if the structure was outlined on them.
   Mask moved_mask(int number, const RigidMotion& motion, const Geometry* scan, double around_mm) const;
 };
 

@@ -19,11 +19,12 @@ struct PlacedFrame {
   std::string stack;            ///< StackID
   std::optional<int> in_stack;  ///< InStackPositionNumber, in that stack
   internal::Placement placement;
-  double spacing = 0;    ///< SpacingBetweenSlices, mm; 0 where it is not said
-  double thickness = 0;  ///< SliceThickness, mm; 0 where it is not said
+  double spacing = 0;    ///< SpacingBetweenSlices, mm; 0 if it is not given
+  double thickness = 0;  ///< SliceThickness, mm; 0 if it is not given
 };
 
-/// Of the first `count` frames. Throws DicomError if one has no position, or no segment where it has to name one.
+/// The places of the first `count` frames. Throws DicomError if one has no position, or names no segment although it
+/// must.
 std::vector<PlacedFrame> placed_frames(DcmItem& dataset, SegmentationType type, std::size_t count);
 
 /// Whether two frames lie on parallel planes with the same pixels.
@@ -39,9 +40,9 @@ struct FrameSlices {
 /// Frames nearly at one height are on one slice. Throws DicomError if they lie beside each other there.
 FrameSlices slices_of(const std::vector<PlacedFrame>& frames, const Vec3& normal);
 
-/// How many steps of the lattice lie from each slice with a frame to the next: empty slices are left out. Without a
-/// spacing, frames whose slices are numbered say so; else all distances are multiples of the least one. All 1 if none
-/// of it fits.
+/// How many steps of the lattice lie from each slice with a frame to the next, because a file may leave out empty
+/// slices. If the frames give no spacing but their slices are numbered, the numbers decide. Otherwise all distances
+/// have to be multiples of the least one (the spacing counts as one of them). All steps are 1 if nothing fits.
 std::vector<int> steps_between(const FrameSlices& slices, const std::vector<PlacedFrame>& frames);
 
 }  // namespace palpate::io

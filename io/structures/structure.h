@@ -70,7 +70,7 @@ struct Structure {
   std::string frame_of_reference_uid;  ///< empty if the file does not say
   std::string study_uid;
   std::string patient_id, patient_name;  ///< compared with the scan's; never written or shown
-  /// The motion from the frame of reference in which it was outlined to the one above, from a registration
+  /// The motion from the frame of reference in which it was outlined to frame_of_reference_uid, from a registration
   /// (registration.h).
   RigidMotion motion;
   Text unfit;  ///< why it cannot be felt; empty if it can
@@ -85,9 +85,9 @@ struct StructureCatalogue {
 };
 
 /// The structures in these files and folders, which are searched to the bottom. Files of other kinds are ignored. In a
-/// folder, a file that holds labels or an image is a label map if its values look like labels. Of a file that is itself
-/// named labels may be as thin as a voxel, and an image is skipped with a reason.
-/// Throws DicomError if a path does not exist, and Cancelled.
+/// folder, a file that holds labels or an image is a label map if its values look like labels. If a file is itself in
+/// `paths`, its labels may be as thin as a voxel; if it holds an image instead, it is skipped with a reason. Throws
+/// DicomError if a path does not exist, and Cancelled.
 StructureCatalogue find_structures(std::span<const std::filesystem::path> paths, const Progress& progress = {});
 
 /// The registrations among these files, in their order. Reads headers alone. Throws Cancelled.

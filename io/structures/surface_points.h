@@ -19,7 +19,7 @@ struct SurfacePoint {
 /// within two lattice blocks of the surface it must grow by 0.8 to 1.25 mm per mm, and be larger beyond.
 std::vector<SurfacePoint> surface_points(const SignedDistance& distance, const StructureBox& box, double spacing_mm);
 
-/// The same within a box that does not grow. A little around the box may be read, too.
+/// The same within a box that does not grow. Distances slightly outside the box may be read, too.
 std::vector<SurfacePoint> surface_points_in(const SignedDistance& distance, const StructureBox& box, double spacing_mm);
 
 /// The box around the whole surface.

@@ -60,9 +60,9 @@ struct Mode {
   std::vector<Gate> gates;         ///< multiplied into the strength
   Side side = Side::entering;
   DirectionField direction_of = DirectionField::vector;
-  std::string structure;  ///< whose edge a surface follows, or that keep_out or keep_in names; or empty
+  std::string structure;  ///< the one whose edge a surface follows, or that of keep_out or keep_in; or empty
   double level_mm = 0;    ///< how far inside the structure's edge that surface is
-  double margin_mm = 3;   ///< keep_out, keep_in: how far before the edge the force begins, > 0
+  double margin_mm = 3;   ///< keep_out, keep_in: how far from the edge the force begins, > 0
   std::string from, to;   ///< names of tissues: the boundary that a surface follows, instead of a side; or both empty
   Shape shape = Shape::point;
   Vec3 position_mm{0};      ///< patient space

@@ -34,8 +34,8 @@ class Strength {
   /// gradient.
   void add_to(std::span<const double> values, std::span<const double> magnitudes,
               std::span<double> sums) const noexcept;
-  /// For at most most_at_once samples with these data: the bits of `bits` (the first sample's is the lowest) at whose
-  /// samples no factor of that datum is zero.
+  /// Returns `bits` without those of the samples at which a factor of that datum is zero. The lowest bit is the first
+  /// sample's. `data`: the datum of each sample; at most most_at_once of them.
   std::uint64_t not_zero(Datum of, std::span<const double> data, std::uint64_t bits) const noexcept;
   /// The fields that operator() reads.
   io::FieldSet reads() const noexcept;

@@ -21,7 +21,8 @@ class StrengthTable {
   /// Multiplies each product by the value at its datum. Returns false if all products would be zero; then the products
   /// may be left unchanged.
   bool multiply(std::span<const double> at, std::span<double> products) const noexcept;
-  /// For at most 64 data: the bits of `bits` (the first datum's is the lowest) at whose data the value is not zero.
+  /// Returns `bits` without those of the data at which the value is zero. The lowest bit is that of the first datum;
+  /// there are at most 64 data.
   std::uint64_t not_zero(std::span<const double> at, std::uint64_t bits) const noexcept;
 
  private:

@@ -14,9 +14,9 @@
 /// Along a surface it follows the integral of the gradient from tick to tick (by the trapezoidal rule, so that a closed
 /// circle leaves an error of third order only). Across it, where a proxy that is not held is pushed through, it follows
 /// V: in a plate thinner than the filter, the filtered gradient is smaller than the slope, and its integral would never
-/// reach the plate's values. While the proxy is held, it also returns to V plus the offset that it had when the hold
-/// began, over some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A proxy that does
-/// not move keeps its level, and its anchor, to the last bit.
+/// reach the plate's values. While the proxy is held, the level also returns to V plus the offset from V that it had
+/// when the hold began, over some millimeters of travel (defaults::level_length_mm). Away from surfaces it is V. A
+/// proxy that does not move keeps its level, and its anchor, to the last bit.
 
 #include <algorithm>
 #include <array>

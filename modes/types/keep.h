@@ -1,13 +1,14 @@
 #pragma once
 
-/// Keep out of a structure, or in it: felt over a margin before its edge, and not at all farther away.
+/// Keeps the stylus out of a structure, or in it. The force begins when the stylus comes nearer to the edge than a
+/// margin.
 ///
 /// Two primitives share the strength. A plane resists movement towards the edge, as a surface does; a directed force
 /// pushes back by itself. Both rise over the margin, once differentiable, and stay at their maximum beyond the edge:
 /// the force is bounded by the strength, continuous, and zero outside the margin. A force is evaluated at the old
-/// proxy, so one that rises as steeply as the coupling's stiffness would oscillate: it is limited to half of that, and
-/// the plane takes the rest. The margin is in mm of patient and the coupling in mm of hand, so the workspace's scale
-/// matters.
+/// proxy, so a force that rises as steeply as the coupling's stiffness would oscillate. So the slope of the directed
+/// force is limited to half of that stiffness, and the plane takes the rest. The margin is in mm of patient and the
+/// coupling in mm of hand, so the workspace's scale matters.
 
 #include <algorithm>
 #include <glm/geometric.hpp>

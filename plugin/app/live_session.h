@@ -40,8 +40,8 @@ class LiveSession {
   /// Another scan, or another frame of it, either raw or already filtered. Null: no scan, and the stylus is
   /// disconnected. Throws std::invalid_argument if the scene cannot be felt on it.
   void set_scan(std::shared_ptr<const io::Volume> volume) { set_scan(std::move(volume), modes::Scene(scene_)); }
-  /// The same together with another scene, in one change. Until this call the scene is not felt on any scan. `frame`:
-  /// which frame of its series the volume is, for recordings.
+  /// The same together with another scene, in one change. The scene is not felt on the previous scan. `frame`: which
+  /// frame of its series the volume is, for recordings.
   void set_scan(std::shared_ptr<const io::Volume> volume, const modes::Scene& scene, const ScanFrame& frame = {});
   /// Throws std::invalid_argument that names the key if a scene is not valid; the previous scene then stays.
   void set_scene(const modes::Scene& scene, Pace pace = Pace::stepped);

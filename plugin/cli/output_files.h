@@ -10,7 +10,7 @@
 
 namespace palpate::plugin {
 
-/// Throws InputRefused if an output is the same file as an input, also by a link or another path, or as another output.
+/// Throws InputRefused if an output is the same file as an input or as another output, also by a link or another path.
 /// Empty paths stand for none; an input may be a folder, or not exist.
 void check_outputs(const std::vector<std::filesystem::path>& outputs, const std::vector<std::filesystem::path>& inputs);
 

@@ -22,7 +22,7 @@ namespace palpate::plugin {
 
 struct SolveOptions {
   const solver::SolverType* solver = nullptr;  ///< null: the chain
-  int repeat = 1;  ///< solves of each balance, every one cold; time_ns is the fastest of them
+  int repeat = 1;  ///< solves of each balance, without a warm start; time_ns is the fastest of them
 };
 
 struct SolvedLine {

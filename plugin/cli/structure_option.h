@@ -9,9 +9,9 @@
 
 namespace palpate::plugin {
 
-/// If the whole text is the name of a file, its colon does not count. A number comes before a name of the same digits.
-/// Throws WrongUsage with the list of structures if there are several and the text names none of them; InputRefused if
-/// the file holds no structure, none with that name, or several.
+/// If the whole text is the name of a file, its colon does not count. If digits are both the number of one structure
+/// and the name of another, the number counts. Throws WrongUsage with the list of structures if there are several and
+/// the text names none of them; InputRefused if the file holds no structure, none with that name, or several.
 io::Structure choose_structure(const std::string& text);
 
 /// The same, placed on a scan. Prints warnings on stderr. Also throws InputRefused if it cannot be felt on that scan.

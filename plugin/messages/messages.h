@@ -12,7 +12,7 @@
 
 namespace palpate::plugin {
 
-/// The message with this id, with these values in its places.
+/// The message with this id, with these values in place of its {}.
 template <typename... Values>
 Text say(std::type_identity_t<
              ChosenMessage<sizeof...(Values), messages::kept_archives, messages::balances, messages::paraview,

@@ -23,7 +23,8 @@ struct SurfaceDistance {
 Surface isosurface(const std::function<SurfaceDistance(const glm::dvec3&)>& distance, const io::Box& box);
 
 /// In patient space: where the scan's values, interpolated between voxels (or every few voxels), cross this value.
-/// Normals point to lower values. At most as many cells; no surface beside padding, or where slices are missing.
+/// Normals point to lower values. The number of cells has the same limit; there is no surface beside padding, or where
+/// slices are missing.
 Surface isosurface(const io::Volume& volume, double value);
 
 }  // namespace palpate::plugin::igtl

@@ -23,16 +23,16 @@ class Received {
 
   Received() = default;
   /// `keep_in`: a folder for copies of the maps that are used, by the hash of their content (hash_of_file()). Empty:
-  /// none are kept. It is made for the first map.
+  /// none are kept. The folder is made for the first map.
   explicit Received(std::filesystem::path keep_in) : keep_in_(std::move(keep_in)) {}
 
-  /// The file for a new map of that name: beside the present one, which is still read. Throws Refusal if there are too
-  /// many names.
+  /// The file for a new map of that name. It lies beside the present file, which may still be read. Throws Refusal if
+  /// there are too many names.
   std::filesystem::path fresh_file(const std::string& name);
   /// The file of the map with that name; empty if there is none.
   std::filesystem::path file_of(const std::string& name) const;
   /// From now on the name refers to that file. The latest few files before it are kept, because a change of scene may
-  /// be undone. A copy is made in another thread, and told on stderr.
+  /// be undone. A copy is made in another thread, and reported on stderr.
   void use(const std::string& name, const std::filesystem::path& file);
 
   /// The scene with names of maps in place of their files, for the wire.

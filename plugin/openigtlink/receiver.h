@@ -27,7 +27,7 @@ class Receiver {
 
   std::uint64_t passed_over() const noexcept { return passed_over_; }
   std::uint64_t dropped() const noexcept { return dropped_; }
-  /// The reason for the latest one.
+  /// Why the latest message was dropped.
   const Text& why_dropped() const noexcept { return why_dropped_; }
 
  private:

@@ -40,9 +40,9 @@ struct Prepared {
   modes::Scene scene;
   std::vector<LoadedStructure> read_ahead{};  ///< structures on the scan for a later scene: not read again
 };
-/// The same, but takes the filtered volume and the fields from `felt` if the scene still needs exactly these of this
-/// scan, and its structures on another frame of the series, too. So a scene that is being edited, and the next frame,
-/// are ready at once.
+/// The same, but reuses parts of `felt`: the filtered volume and the fields, if the scene still needs exactly these and
+/// the scan is the same; and the structures, also if the scan is another frame of the series. So a scene that is being
+/// edited, and the next frame, are ready at once.
 PreparedScene prepare(const modes::Scene& scene, const std::shared_ptr<const io::Volume>& volume,
                       const glm::dvec3& device_half_extent_m, const Prepared& before,
                       std::span<const RegisteredStructure> recorded = {});

@@ -14,8 +14,8 @@ namespace palpate::plugin {
 double strength_against_n(const modes::ActiveMode& mode, const io::Sample& sample, const glm::dvec3& inward);
 
 /// N: the largest force that the mode, a surface, resists on the next 3 mm from a place (patient space, mm) along
-/// `inward` (unit). Places behind a break-through are not counted: those that a slowly pushed probe reaches only when
-/// the proxy jumps and half of the force is lost. 31 samples: not for the tick.
+/// `inward` (unit). Places behind a break-through are not counted. These are places that a slowly pushed probe reaches
+/// only after the proxy has jumped and half of the force was lost. 31 samples: not for the tick.
 double strength_ahead_n(const modes::ActiveMode& mode, const modes::Plan& plan, const io::FieldSource& source,
                         const glm::dvec3& place_mm, const glm::dvec3& inward);
 

@@ -64,7 +64,7 @@ struct TickRecord {
   std::uint32_t stylus_epoch = 0;  ///< counts the styluses held in this session
   std::uint32_t commands = 0;      ///< bits of namespace command that took effect in this tick
   // The rest depends on the clock or on other threads. No force depends on it.
-  std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed at the sample
+  std::uint32_t from_brick = 0;  ///< 1: the last sub-step's gradient was ready; 0: it was computed in the tick
   std::uint32_t missed = 0;      ///< deadlines that passed without a tick since the previous tick
   std::uint32_t late_ns = 0;     ///< how long after its deadline this tick began
   std::uint32_t stage_ns[stage_count] = {};

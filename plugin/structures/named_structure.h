@@ -11,7 +11,7 @@
 
 namespace palpate::plugin {
 
-/// A structure as it is asked for. With both, the number comes first: the name counts where no structure has the
+/// The number, the name, or both, by which a structure is asked for. The name counts only if no structure has the
 /// number.
 struct AskedStructure {
   std::optional<int> number;

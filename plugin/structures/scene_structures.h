@@ -30,12 +30,12 @@ struct LoadedStructure {
   std::vector<std::shared_ptr<const io::DistanceField>> before_edits{};
 };
 
-/// The structures that the plan reads, in its order. Reuses unchanged ones in `before`, and the fields of edits that
-/// both begin with. Throws std::invalid_argument naming the structure if its file or segment does not exist, if it is
-/// empty or belongs to another patient, if an edit of it is impossible, or if it has another frame of reference than
-/// the scan and no registration beside it joins the two. Structures in `recorded` are placed as they were when
-/// recorded, without searching for registrations. Fields of edits are shared (shared_edits.h), but those that read the
-/// scan only if the scan has an owner.
+/// The structures that the plan reads, in its order. Reuses unchanged structures in `before`, and the fields of the
+/// first edits of a structure as far as both lists of edits are the same. Throws std::invalid_argument naming the
+/// structure if its file or segment does not exist, if it is empty or belongs to another patient, if an edit of it is
+/// impossible, or if it has another frame of reference than the scan and no registration beside it joins the two.
+/// Structures in `recorded` are placed as they were when recorded, without searching for registrations. Fields of edits
+/// are shared (shared_edits.h). Those of edits that read the scan are shared only if the scan has an owner.
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});

@@ -33,10 +33,10 @@ struct Values {
   std::optional<double> light_part = {};  ///< fraction of the body that is as light as lungs, 0 to 1; only for HU
 };
 
-/// The windows offered for the slices, the one shown first at the front: the series' own window. Then, for HU, brain,
-/// soft tissue, lung and bone; for all other units the middle 98 percent of the values, and all of them. Speeds that
-/// are hardly ever negative are shown from zero to twice those of the first frame, because a pulse makes other frames
-/// faster. Never empty.
+/// The windows offered for the slices. The first of them is used first: the series' own window, if there is one. Then,
+/// for HU, brain, soft tissue, lung and bone; for all other units the middle 98 percent of the values, and all of them.
+/// Speeds that are hardly ever negative are shown from zero to twice those of the first frame, because a pulse makes
+/// other frames faster. Never empty.
 std::vector<NamedWindow> windows_for(const Values& values);
 
 /// In the form of vtkColorTransferFunction (value, red, green, blue) and vtkPiecewiseFunction (value, opacity, 0.5, 0).

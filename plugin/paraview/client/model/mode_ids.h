@@ -12,8 +12,9 @@ namespace palpate::plugin {
 
 class ModeIds {
  public:
-  /// A scene has become another one. Modes stay in their places while their count and the scene's name stay. Others are
-  /// found by what they are; a mode that cannot be told from another one gets a new number.
+  /// The scene was replaced by another one. If the name of the scene and the count of its modes are unchanged, the
+  /// modes at the same places keep their numbers. Otherwise modes are matched by their contents, and a mode that cannot
+  /// be distinguished from another one gets a new number.
   void follow(const modes::Scene& before, const modes::Scene& after);
   unsigned at(std::size_t mode) const { return ids_.at(mode); }
   /// None: the scene has it no longer.

@@ -49,7 +49,7 @@ class ScanModel : public QObject {
   /// Why the views differ from what the stylus would feel, and what to do; empty if they agree.
   QString why_not_felt() const;
 
-  /// How often a scan was asked for, whatever became of it.
+  /// How often a scan was requested, with or without success.
   unsigned requests() const { return requests_; }
   /// Finds the series of a folder or file, as the active server names it. Shows it if exactly one of them is a volume.
   void open(const std::string& path);

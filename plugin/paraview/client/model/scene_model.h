@@ -52,8 +52,8 @@ class SceneModel : public QObject {
   bool is_waiting() const { return reading_ || !waiting_.empty(); }
   /// Another scan: drops the waiting changes, which were meant for the previous one, except the pipeline's scene.
   void drop_waiting();
-  /// `clean` removes from a scene of the pipeline what does not belong there, and returns whether there was any; then
-  /// the pipeline gets the cleaned scene.
+  /// `clean` removes the parts of a scene in the pipeline that do not belong there, and returns whether it removed any.
+  /// If so, the pipeline gets the cleaned scene.
   void set_clean(std::function<bool(modes::Scene&)> clean) { clean_ = std::move(clean); }
   /// The pipeline holds a scene that was refused: sets it back to the scene that is felt.
   void put_back();

@@ -42,7 +42,7 @@ struct SessionStatus {
   std::string tissue;
   std::string held;                         ///< the boundary that holds the proxy, in words; empty if none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
-  double force_n = 0;        ///< on the device, in the last tick: below the tick's where its motors are warm
+  double force_n = 0;        ///< on the device, in the last tick: less than the tick's if its motors are warm
   bool is_warm = false;      ///< the motors' heat limits the force
   double peak_n = 0;         ///< the largest since the last poll
   double tick_us = 0;        ///< median since the last poll
@@ -123,7 +123,7 @@ class SessionController : public QObject {
   void clutch();
   void unclutch(const glm::dmat3& rotation);
   bool is_clutched() const { return parted_.has_value(); }
-  /// Whether the mapping may change: not while forces are on, because the stylus slides through the patient then.
+  /// Whether the mapping may change: not while forces are on, because the change moves the stylus through the patient.
   bool may_remap() const;
 
   /// Gives the status while no stylus is connected.
@@ -163,7 +163,7 @@ class SessionController : public QObject {
   QString why_kept_off() const;
   /// The session has begun anew, on the same stylus.
   void begin_anew();
-  /// The mapping with which hand and patient meet where the stylus stayed.
+  /// The mapping that puts the hand's present position at the place in the patient where the stylus stayed.
   modes::WorkspaceSettings joined(const glm::dmat3& rotation) const;
   void commit(const modes::Scene& scene, Pace pace);
   void follow_workspace();

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A mode as a control shows it. A change may wait for files that are read, and the scene may be another one when its
-/// turn comes.
+/// A mode as a control shows it. A change may wait until files are read, and the scene may have been replaced when the
+/// change is made.
 
 #include <cstddef>
 #include <string>

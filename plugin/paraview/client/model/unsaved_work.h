@@ -42,7 +42,7 @@ class UnsavedWork {
   void note_marks_saved(const std::string& scan, const Marks& marks);
   /// The user discards the current scene for another scan: of_scan() is empty until the scene changes.
   void let_scene_go();
-  /// The other scan does not come: of_scan() is as before.
+  /// The other scan is not opened after all: of_scan() is as before.
   void keep_scene() { scene_let_go_.clear(); }
   /// The same for the scene and all marks: of_program() is empty.
   void let_all_go();

@@ -28,8 +28,8 @@ class TissuesSection : public QWidget {
 
   /// The scene proposed for the scan: the first in the list of scenes.
   void set_proposed(const modes::Scene& scene);
-  /// Another scan is shown, without a search so far. The suitable starting scene becomes the first of the others; those
-  /// for other types of scan come last.
+  /// Another scan is shown, without a search so far. After the scene proposed for this scan, the list has the starting
+  /// scene that suits it, and last the scenes for other types of scan.
   void forget_scan(const ScanHandle& shown);
   /// The model's scene comes from a state file.
   void set_restored();

@@ -30,7 +30,8 @@ class ScanSection : public QWidget {
 
   /// Opens a folder or file, as the active server names it, and remembers it.
   void open(const std::string& path);
-  /// The same after a drop was accepted: the source of the drop waits for that, and open() may ask a question first.
+  /// The same, but only after the drop was answered: the program that the drop comes from waits for the answer, and
+  /// open() may ask the user a question.
   void open_later(const QString& path);
   /// Shows the tab of archives.
   void show_archive();

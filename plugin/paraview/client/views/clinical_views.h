@@ -105,8 +105,8 @@ class ClinicalViews {
   /// Another frame is shown: updates the text about the place under the pointer.
   void refresh_values();
   /// The same for a frame that was read completely: windows and appearances are offered for its values. If the present
-  /// window is one of those offered before, it is replaced by the frame's own of that name; speeds keep theirs, for
-  /// comparison.
+  /// window is one of those offered before, it is replaced by the frame's own window of that name. For speeds nothing
+  /// changes, so that frames can be compared.
   void show_frame_values(vtkSMSourceProxy& image);
 
  private:

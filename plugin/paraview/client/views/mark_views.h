@@ -1,7 +1,7 @@
 #pragma once
 
-/// Marks in the views of a scan: balls with names, paths, distances and angles with their values. On a slice, those on
-/// it are drawn, and fainter those near it.
+/// Marks in the views of a scan: balls with names, paths, distances and angles with their values. A slice shows the
+/// marks on it, and, more faintly, the marks near it.
 
 #include <functional>
 #include <memory>

@@ -29,7 +29,7 @@ QString measured_text(std::span<const glm::dvec3> places);
 
 class SliceMeasures {
  public:
-  /// Takes precedence over the slice's own mouse and the stylus' hand while something is to be measured.
+  /// While something is to be measured, this takes the mouse before the slice and the simulated stylus do.
   SliceMeasures(SliceView& slice, pqRenderView& view, std::shared_ptr<SharedWindow> window);
   SliceMeasures(const SliceMeasures&) = delete;
   SliceMeasures& operator=(const SliceMeasures&) = delete;
