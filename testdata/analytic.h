@@ -1,6 +1,6 @@
 #pragma once
 
-/// A phantom without voxels: every edge a Gaussian one, value and gradient exact.
+/// A phantom without voxels: every edge is a step after a Gaussian blur, and value and gradient are exact.
 
 #include <limits>
 
@@ -10,7 +10,7 @@
 namespace palpate::testdata {
 
 /// Paints the phantom's bodies over each other with the weight Phi(-distance / softness) instead of a step, so that the
-/// edge of a half-space is what a Gaussian of that standard deviation makes of it. Value in HU, gradient per mm.
+/// edge of a half-space is a step blurred by a Gaussian of that standard deviation. Value in HU, gradient per mm.
 ///
 /// Nothing is felt beyond `lower` and `upper` (mm, both ends inside).
 class AnalyticSource : public io::FieldSource {

@@ -23,9 +23,9 @@ struct Phantom {
 
 double value_at(const Phantom& phantom, const Vec3& position_mm) noexcept;
 
-/// Mean value over a voxel: the box spanned by three edges (mm) about a center. Curved surfaces are cut as planes in
-/// parts so small that the fraction of a voxel on either side is wrong by less than 1e-4; exact where one plane cuts;
-/// where several surfaces meet in a voxel, to 1/16 of its edges.
+/// Mean value over a voxel: the box spanned by three edges (mm) about a center. A curved surface is treated as planes
+/// in parts so small that the fraction of a voxel on either side is wrong by less than 1e-4. Exact if one plane cuts
+/// the voxel. If several surfaces meet in a voxel, accurate to 1/16 of its edges.
 double mean_value(const Phantom& phantom, const Vec3& center_mm, const Vec3 (&edges)[3]);
 
 /// Values of the tissues that phantoms are made of, HU.

@@ -10,7 +10,7 @@
 
 namespace palpate::testdata {
 
-/// How the voxels lie. By default 64 voxels of 1 mm along the patient's axes, centered at the origin.
+/// The lattice of voxels. By default 64 voxels of 1 mm along the patient's axes, centered at the origin.
 struct Grid {
   glm::ivec3 size{64};        ///< columns, rows, slices
   Vec3 spacing{1};            ///< mm between columns, rows and slices
@@ -24,8 +24,8 @@ struct Grid {
   std::vector<int> missing;  ///< slices left out, ascending
 };
 
-/// Throws std::invalid_argument where no volume results (a size below 1, a spacing not above 0, directions not unit or
-/// not perpendicular, displacements that swap slices).
+/// Throws std::invalid_argument if the result is no volume (a size below 1, a spacing not above 0, directions not unit
+/// or not perpendicular, displacements that swap slices).
 io::Geometry make_geometry(const Grid& grid);
 
 /// Rotates both directions of the grid about an axis (unit): an oblique scan.
@@ -42,7 +42,7 @@ struct Acquisition {
   double circle_radius = 0;
 };
 
-/// Throws std::range_error where a value does not fit in the stored type.
+/// Throws std::range_error if a value does not fit in the stored type.
 io::Volume scan(const Phantom& phantom, const io::Geometry& geometry, const Acquisition& acquisition = {});
 
 }  // namespace palpate::testdata

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A CT of a chest as scanners send it: with padding, uneven or tilted slices, as floats, and so on. All have the same
-/// voxels but for what their names say.
+/// voxels, except for the difference that the name states.
 
 #include <functional>
 #include <glm/vec3.hpp>
@@ -23,13 +23,13 @@ struct ScanShape {
 };
 const std::vector<ScanShape>& scan_shapes();
 
-/// Seconds of a processor, and how they compare.
+/// Processor times, s, and their ratio.
 struct CostRatio {
   double plain_s = 0, shape_s = 0;
   double ratio() const noexcept { return shape_s / plain_s; }
 };
-/// The least of `rounds` runs of each, in turn: what else the machine does meets both. On the calling thread, whose
-/// time alone counts.
+/// The least of `rounds` runs of each, alternately, so that other load on the machine affects both. Runs on the calling
+/// thread; only that thread's time counts.
 CostRatio compare_costs(int rounds, const std::function<void()>& plain, const std::function<void()>& shape);
 
 }  // namespace palpate::testdata

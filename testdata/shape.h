@@ -39,9 +39,9 @@ Distance distance_to(const Shape& shape, const Vec3& position_mm) noexcept;
 /// Largest curvature of the surface, 1/mm: 0 for a half-space.
 double curvature_of(const Shape& shape) noexcept;
 
-/// Fraction of a box in front of which the plane cuts: the part of the parallelepiped {sum u_i edge_i, |u_i| <= 1/2}
-/// with normal . x <= offset. Exact: Scardovelli and Zaleski, "Analytical relations connecting linear interfaces and
-/// volume fractions in rectangular grids", J. Comput. Phys. 164 (2000), equations of section 2.2.
+/// The fraction of a box that lies behind a plane: the part of the parallelepiped {sum u_i edge_i, |u_i| <= 1/2} with
+/// normal . x <= offset. Exact: Scardovelli and Zaleski, "Analytical relations connecting linear interfaces and volume
+/// fractions in rectangular grids", J. Comput. Phys. 164 (2000), equations of section 2.2.
 double fraction_behind_plane(const Vec3& normal, double offset, const Vec3 (&edges)[3]) noexcept;
 
 }  // namespace palpate::testdata

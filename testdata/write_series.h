@@ -19,7 +19,7 @@ struct PhaseContrast {
   double venc_cm_per_s = 0;
 };
 
-/// What the series says of itself. No person is behind it: PatientName and PatientID are `subject`, dates are empty,
+/// The series' own attributes. It shows no person: PatientName and PatientID are `subject`, dates are empty,
 /// PatientIdentityRemoved is YES.
 struct SeriesLabel {
   std::string description = "phantom";  ///< SeriesDescription
@@ -28,18 +28,19 @@ struct SeriesLabel {
   int number = 1;               ///< SeriesNumber
   int bits_stored = 16;         ///< of the 16 that a voxel has
   std::string modality = "CT";  ///< or "MR"
-  /// Where not empty, volumes of the same study text belong to one study, those of the same number to one series.
+  /// If not empty: volumes with the same study text belong to one study, and those of them with the same number to one
+  /// series.
   std::string study;
   std::optional<io::Series::Window> window;  ///< WindowCenter and WindowWidth
-  std::optional<double> trigger_time_ms;     ///< TriggerTime: when in the heart's cycle
+  std::optional<double> trigger_time_ms;     ///< TriggerTime: the time in the heart's cycle
   std::optional<PhaseContrast> phase_contrast;
 };
 
-/// Writes slice_0001.dcm and on into `folder`, which must not exist or be empty: all of them or, on an error, none.
-/// UIDs follow from the content, so the same volume gives the same bytes.
+/// Writes slice_0001.dcm and on into `folder`, which must not exist or be empty: all of them, or none if there is an
+/// error. UIDs follow from the content, so the same volume gives the same bytes.
 ///
-/// Throws std::runtime_error naming the file for what cannot be written, std::invalid_argument for what such a series
-/// cannot hold (float voxels, a slice larger than 65535 on a side).
+/// Throws std::runtime_error naming the file if it cannot be written, and std::invalid_argument for a volume that such
+/// a series cannot hold (float voxels, a slice larger than 65535 on a side).
 void write_series(const io::Volume& volume, const std::filesystem::path& folder, const SeriesLabel& label = {});
 
 }  // namespace palpate::testdata

@@ -24,7 +24,7 @@ struct Scenario {
   bool newer_puck = false;     ///< a SpaceMouse with translation and rotation in one report
   int user = -1;               ///< the client's user and group; -1: as this process
   bool in_plugdev = false;     ///< whether plugdev is its other group
-  double zero_within = 0.020;  ///< s after the client has ended: what the guest's own time allows
+  double zero_within = 0.020;  ///< s after the client has ended, in the guest's own time
   double unplug_after = 1.4;   ///< s after the client first touches it
   double replug_after = 1.0;   ///< s after that; for the replug scenarios
   std::function<bool()> is_plugged_in = [] { return true; };  ///< whether the system has a node for it

@@ -15,7 +15,8 @@
 
 namespace palpate::io::testing {
 
-/// Values by a formula, at places by another; the gradient's direction is the normal's, its length means nothing.
+/// One formula gives the values, and another the places that have a value. The gradient has the direction of the
+/// boundary's normal; its length has no meaning.
 class FormulaSource final : public FieldSource {
  public:
   std::function<double(const Vec3&)> value;
@@ -33,7 +34,7 @@ class FormulaSource final : public FieldSource {
   }
 };
 
-/// The same number for the same place, and another one for any other: even between 0 and 1.
+/// A hash of a place as a number, uniformly distributed between 0 and 1: the same for the same place.
 inline double hashed(const Vec3& at) {
   std::uint64_t bits = 0x9E3779B97F4A7C15;
   for (int axis = 0; axis < 3; ++axis) {
@@ -43,13 +44,14 @@ inline double hashed(const Vec3& at) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// Of a standard deviation of one.
+/// A normally distributed number of standard deviation one, by the place alone.
 inline double gaussian_at(const Vec3& at) {
   const double u = hashed(at), v = hashed(at + Vec3(1e4, 0, 0));
   return std::sqrt(-2 * std::log(u + 1e-12)) * std::cos(2 * std::numbers::pi * v);
 }
 
-/// A rise with a slope of one in the middle, from flat to flat: what a Gaussian blur makes of a step.
+/// A step after a Gaussian blur: it rises from one flat value to another, with a slope of one and the value 0 in the
+/// middle.
 inline double blurred_step(double way_mm, double sigma_mm) {
   return std::sqrt(std::numbers::pi / 2) * sigma_mm * std::erf(way_mm / (std::numbers::sqrt2 * sigma_mm));
 }

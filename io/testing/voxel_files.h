@@ -25,7 +25,7 @@ using Rows = std::array<std::array<double, 4>, 3>;
 Vec3 place_of(const Rows& rows, int a, int b, int c);
 const Vec3 ras_to_lps(-1, -1, 1);
 
-/// Checks that every voxel of the file lies at its place (mm) with its value, whatever the volume's order of axes.
+/// Checks that every voxel of the file lies at its place (mm) with its value, for any order of the volume's axes.
 void expect_all(const Volume& volume, const std::function<Vec3(int, int, int)>& lps,
                 const std::function<double(int, int, int)>& value);
 
@@ -62,7 +62,7 @@ std::string voxels(bool big = false, int volumes = 1) {
   return bytes;
 }
 
-/// With the window bits that zlib takes: 15 writes zlib, 31 gzip.
+/// Compressed by zlib with these window bits: 15 writes zlib, 31 gzip.
 std::string packed(std::string bytes, int window_bits);
 /// 0, and 7 from the third slice on, as int16.
 std::string labels();

@@ -31,7 +31,7 @@ inline LabelImage image_on(const Vec3& i, const Vec3& j, const Vec3& k, const Ve
   return image;
 }
 
-/// Along the patient's axes, feet first, turned about an axis of its own, and of a tilted gantry.
+/// Images along the patient's axes, feet first, rotated about an oblique axis, and with a tilted gantry.
 inline std::vector<LabelImage> images() {
   const Vec3 i(6.0 / 7, 2.0 / 7, -3.0 / 7), j(3.0 / 7, -6.0 / 7, 2.0 / 7), k = glm::cross(i, j);
   return {image_on({0.5, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-4, 5, 6}, {4, 3, 5}),

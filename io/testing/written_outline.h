@@ -91,8 +91,9 @@ inline VoxelSums sums_of(const LabelImage& image) {
   return sums;
 }
 
-/// The reader's field has every voxel's center on its side where the grid is at right angles: so it has read every
-/// voxel. On a tilted one it has their number and their center; pydicom has them all (outline_peers_test.cpp).
+/// Checks that every voxel was read. On a grid at right angles, every voxel's center has to be on its own side in the
+/// reader's field. On a tilted grid only the number of voxels and their centroid are compared; pydicom compares all of
+/// them (outline_peers_test.cpp).
 inline void expect_same_voxels(const LabelImage& written, const Structure& read, bool is_straight) {
   DistanceOptions distance;
   distance.scan = &written.geometry;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Commands of archives with settings and fetched files of their own, and a recording to be sent.
+/// Runs archive commands with separate settings and fetched files, and has a recording to send.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace palpate::plugin::testing {
 
-/// Settings and fetched files of its own.
+/// Each test has its own settings and fetched files.
 class CommandArchive : public ::testing::Test {
  protected:
   void SetUp() override {

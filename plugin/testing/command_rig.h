@@ -1,6 +1,6 @@
 #pragma once
 
-/// What tests of the program share: running it, and a phantom to run it on.
+/// Shared by tests of the program: running it, and a phantom to run it on.
 
 #include <sys/wait.h>
 
@@ -35,7 +35,7 @@ inline Outcome palpate(const std::string& arguments, bool with_errors = true) {
   return run_command(std::string(PALPATE_PROGRAM) + " " + arguments + (with_errors ? " 2>&1" : " 2>/dev/null"));
 }
 
-/// All that a command of the shell says.
+/// All output of a shell command.
 inline std::string output_of(const std::string& command) {
   return run_command("{ " + command + "; } 2>&1").output;
 }

@@ -29,7 +29,7 @@ inline std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Of a CSV table, by heading; empty cells left out.
+/// The rows of a CSV table: cells by heading, without empty cells.
 inline std::vector<Row> rows_of(const std::string& table) {
   std::istringstream lines(table);
   std::string line;

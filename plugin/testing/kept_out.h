@@ -1,6 +1,6 @@
 #pragma once
 
-/// What holds of every recording of a stylus that a structure keeps out.
+/// Checks for recordings of a stylus that is kept out of a structure.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A scan on a grid that is oblique, tilted, uneven and not square, and a scene with two boundaries by their values and
-/// one by a structure: what the numbers of commands are checked on.
+/// one by a structure: commands are tested on them.
 
 #include <fmt/format.h>
 
@@ -83,7 +83,7 @@ inline std::filesystem::path odd_scene() {
   return folder / "scene.json";
 }
 
-/// A way from outside through the ball's skin and core to its middle, mm.
+/// A path from outside through the ball's skin and core to its middle, mm.
 inline const glm::dvec3 odd_inward = glm::normalize(glm::dvec3(0.5, 0.7, 0.4));
 inline const glm::dvec3 odd_from = odd_center - 26.0 * odd_inward, odd_to = odd_center + 1.0 * odd_inward;
 

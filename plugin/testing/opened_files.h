@@ -1,6 +1,6 @@
 #pragma once
 
-/// How often files are opened, by whichever process, as the system counts it.
+/// Counts how often files are opened, by any process, with inotify.
 
 #include <sys/inotify.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@ namespace palpate::plugin::testing {
 
 class OpenedFiles {
  public:
-  /// Watches the files of these folders, and not those of folders within.
+  /// Watches the files of these folders, without subfolders.
   explicit OpenedFiles(const std::vector<std::filesystem::path>& folders) : events_(::inotify_init1(IN_NONBLOCK)) {
     for (const std::filesystem::path& folder : folders) ::inotify_add_watch(events_, folder.c_str(), IN_OPEN);
   }
@@ -23,7 +23,7 @@ class OpenedFiles {
   OpenedFiles& operator=(const OpenedFiles&) = delete;
   ~OpenedFiles() { ::close(events_); }
 
-  /// How often each was opened since the last call, by its name; those that were not are left out.
+  /// How often each file was opened since the last call, by its name. Files that were not opened are left out.
   std::map<std::string, int> count() {
     std::map<std::string, int> opened;
     alignas(inotify_event) std::array<char, 1 << 16> bytes{};

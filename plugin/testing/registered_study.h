@@ -67,7 +67,7 @@ inline void write_registration(const std::filesystem::path& file, const std::str
   io::internal::write(image, file);
 }
 
-/// 40 x 40 x 20 voxels of 2 mm around the place that the registration moves the cube to.
+/// 40 x 40 x 20 voxels of 2 mm around the place to which the registration moves the structure.
 inline std::shared_ptr<const io::Volume> registered_scan() {
   auto volume = std::make_shared<io::Volume>();
   volume->frame_of_reference_uid = "1.1";

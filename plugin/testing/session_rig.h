@@ -1,6 +1,6 @@
 #pragma once
 
-/// What tests of the session share: a slab to press on, and a press.
+/// Shared by tests of the session: a slab to press on, and a press.
 
 #include <memory>
 #include <string>
@@ -15,7 +15,8 @@
 
 namespace palpate::plugin::testing {
 
-/// A slab of soft tissue below z = top_mm of the patient, bone from 10 mm further; the patient's head end is up.
+/// A slab of soft tissue below z = top_mm in the patient (z points to the head), with bone from 10 mm below its surface
+/// on.
 inline std::shared_ptr<const io::FieldSource> slab(double top_mm = 0) {
   const std::vector<testdata::Layer> layers{{.depth = -top_mm, .value = testdata::soft_tissue_hu},
                                             {.depth = 10 - top_mm, .value = testdata::bone_hu}};

@@ -14,7 +14,7 @@
 
 namespace palpate::plugin::testing {
 
-/// Time that goes on only when a test says so. One thread advances it, and one servo lives by it.
+/// A time that only a test advances. One thread advances it, and one servo uses it.
 class DrivenTime {
  public:
   /// Lets the servo tick n times, and returns when the last of them has ended.
@@ -56,10 +56,10 @@ class DrivenTime {
   std::uint64_t allowed_ = 0, begun_ = 0, ended_ = 0, skipped_ = 0;
 };
 
-/// About as fast as the computer's clock, but a tick is never late, however busy the machine is.
+/// About as fast as the computer's clock, but a tick is never late, even on a busy machine.
 class UnhurriedClock : public ServoClock {
  public:
-  /// What time does while the controlling thread is too busy for a heartbeat.
+  /// Whether time goes on while the controlling thread is too busy for a heartbeat.
   enum class WithoutHeartbeat { goes_on, stands_still };
 
   explicit UnhurriedClock(double period_s, WithoutHeartbeat then = WithoutHeartbeat::stands_still)

@@ -11,8 +11,8 @@
 
 namespace palpate::plugin::testing {
 
-/// A path, with nothing there, in a folder of this test process that goes with it. A child process that is to leave the
-/// folder to its parent ends by _exit().
+/// A path at which no file exists, in a folder that is deleted when this test process ends. A child process that must
+/// not delete the folder ends by _exit().
 inline std::filesystem::path fresh_path(const std::string& name) {
   static const io::FreshFolder folder = io::temporary_folder();
   auto path = folder.path() / name;
@@ -21,7 +21,7 @@ inline std::filesystem::path fresh_path(const std::string& name) {
   return path;
 }
 
-/// All that a file holds; empty where there is none.
+/// The content of a file; empty if there is no file.
 inline std::string text_in(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};

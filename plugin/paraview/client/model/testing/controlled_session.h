@@ -38,7 +38,7 @@ struct ControlledSession : WithApplication, ::testing::Test {
   }
   const SessionStatus& last() const { return session.last(); }
   bool is_near(const glm::dvec3& place_mm) const { return glm::distance(last().probe_mm, place_mm) < 1; }
-  /// Until the simulated hand is there; with a force it stays a little short of it.
+  /// Waits until the simulated hand has reached the place; if a force acts, it stops a little before it.
   bool goes_to(const glm::dvec3& place_mm) {
     session.move_hand(place_mm);
     return comes([&] { return is_near(place_mm); });

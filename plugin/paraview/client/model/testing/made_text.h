@@ -46,7 +46,7 @@ class MadeText : public KeptText {
     ++at;
     put(steps[at - 1].key.c_str(), steps[at - 1].after);
   }
-  /// As where its source is deleted in the Pipeline Browser.
+  /// As if its source were deleted in the Pipeline Browser.
   void take_away() {
     texts.clear();
     open_ = false;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A language in which every text begins with a mark: what lacks it is English for everyone.
+/// A language in which every translated text begins with a mark. A text without the mark is not translated.
 
 #include <QCoreApplication>
 #include <QTranslator>
@@ -9,7 +9,7 @@
 
 namespace palpate::plugin::testing {
 
-/// It is spoken while this lives.
+/// Used while this object exists.
 class MarkingTranslator : public QTranslator {
  public:
   static constexpr char mark = '#';

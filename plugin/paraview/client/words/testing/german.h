@@ -1,6 +1,6 @@
 #pragma once
 
-/// The German catalogue as it stands in the sources.
+/// The German catalogue in the sources.
 
 #include <QFile>
 #include <QString>
@@ -34,7 +34,7 @@ inline Catalogue german_catalogue() {
   return found;
 }
 
-/// German is spoken while this lives.
+/// Texts are German while this object exists.
 class German : public QTranslator {
  public:
   German() {
