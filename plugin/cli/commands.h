@@ -1,6 +1,6 @@
 #pragma once
 
-/// The subcommands of `palpate`, one file each.
+/// The subcommands of `palpate`, mostly one file each.
 
 namespace CLI {
 class App;

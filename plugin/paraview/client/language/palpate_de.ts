@@ -2699,12 +2699,12 @@ ID %2, Studie vom %3</translation>
         <translation>die Aufnahme wird noch gelesen. Warten Sie, bis sie gezeigt wird, dann drücken Sie Fühlen</translation>
     </message>
     <message>
-        <source>no view shows the scan. Show it again (the eye in the Pipeline Browser), then press Feel</source>
-        <translation>keine Ansicht zeigt die Aufnahme. Zeigen Sie sie wieder (das Auge im Pipeline Browser), dann drücken Sie Fühlen</translation>
+        <source>no view shows the scan. Show it again (its eye in ParaView&apos;s list of open data, the Pipeline Browser), then press Feel</source>
+        <translation>keine Ansicht zeigt die Aufnahme. Zeigen Sie sie wieder (ihr Auge in ParaViews Liste offener Daten, dem Pipeline Browser), dann drücken Sie Fühlen</translation>
     </message>
     <message>
-        <source>another scan, {}, is active in the Pipeline Browser. Choose {} there, then press Feel</source>
-        <translation>eine andere Aufnahme, {}, ist im Pipeline Browser aktiv. Wählen Sie dort {}, dann drücken Sie Fühlen</translation>
+        <source>another scan, {}, is chosen in ParaView&apos;s list of open data, the Pipeline Browser. Choose {} there, then press Feel</source>
+        <translation>eine andere Aufnahme, {}, ist in ParaViews Liste offener Daten, dem Pipeline Browser, gewählt. Wählen Sie dort {}, dann drücken Sie Fühlen</translation>
     </message>
     <message>
         <source>the views show {}, and the stylus has {}. Go back to the one that the stylus has, then press Feel</source>
