@@ -242,10 +242,11 @@ void SessionController::record(const std::string& file) {
     if (hand_.holds()) move_hand(status_.probe_mm);  // where the new session finds it
     live_.record(file);
     recording_to_ = QString::fromStdString(file);
-    begin_anew();
   } catch (const std::exception& error) {
     problem = QString::fromUtf8(error.what());
   }
+  // Where the file cannot be written a new session has begun without it.
+  live_.is_connected() ? begin_anew() : hand_.hold(nullptr);
   emit connection_changed();
   problem.isEmpty() ? emit told(words(say("recording-the-session-began-anew")), false) : emit told(problem, true);
 }

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -38,6 +40,7 @@ struct RecordingOfAController : testing::WithApplication, ::testing::Test {
     return comes([&] { return session.last().fresh && session.last().tick.index > 100; });
   }
 
+  testing::DrivenTime time;
   MadeText kept;
   SceneModel model{kept};
   SessionController session{model};
@@ -72,6 +75,29 @@ TEST_F(RecordingOfAController, ItIsToldHowItEndedWhateverEndsIt) {
     EXPECT_GT(std::filesystem::file_size(file), 0U);
     session.disconnect_stylus();
   }
+}
+
+/// The stylus goes on without a recording, and the panel reads its ticks from the first one on.
+TEST_F(RecordingOfAController, WhereTheFileCannotBeWrittenTheNewSessionIsFollowedAtOnce) {
+  session.set_clock([this](double) { return time.clock(); });
+  session.set_scan(igtl::testing::ball_of_tissue(), {});
+  session.connect_stylus({.device = "simulated"});
+  constexpr std::uint64_t before = 200;
+  time.advance(before);
+  ASSERT_TRUE(comes([&] { return session.last().fresh && session.last().tick.index + 1 == before; }));
+  told.clear();
+  session.record((testing::fresh_path("no_such_folder") / "x.h5").string());
+  ASSERT_FALSE(told.empty());
+  EXPECT_THAT(told.back().first, ::testing::HasSubstr("x.h5"));
+  EXPECT_TRUE(told.back().second);
+  EXPECT_FALSE(session.live().recording());
+  ASSERT_TRUE(session.has_simulated());
+  const glm::dvec3 place_mm = session.last().probe_mm + glm::dvec3(5, 0, 0);
+  session.move_hand(place_mm);
+  time.advance(before / 2);
+  EXPECT_TRUE(comes([&] { return session.last().tick.index + 1 == before / 2; }));
+  EXPECT_LT(glm::distance(session.last().probe_mm, place_mm), 4) << "the hand has moved";
+  session.disconnect_stylus();
 }
 
 }  // namespace
