@@ -42,7 +42,7 @@ UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& win
       [this] {
         return may_lose(work_.of_program(), tr("This closes everything that is open."), [this] { work_.let_all_go(); });
       },
-      this);
+      [this] { work_.keep_all(); }, this);
 }
 
 /// Whether the user wants what follows: where something is not saved they are asked.

@@ -1,9 +1,11 @@
 #include "plugin/paraview/client/layout/host_guards.h"
 
+#include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqDeleteReaction.h>
 #include <pqLoadStateReaction.h>
 #include <pqRecentFilesMenu.h>
+#include <pqServer.h>
 
 #include <QAction>
 #include <QDropEvent>
@@ -34,8 +36,13 @@ bool brings_state(const QDropEvent& dropped) {
 
 }  // namespace
 
-HostGuards::HostGuards(QMainWindow& window, May may_end, May may_replace, QObject* parent)
-    : QObject(parent), window_(window), may_end_(std::move(may_end)), may_replace_(std::move(may_replace)) {
+HostGuards::HostGuards(QMainWindow& window, May may_end, May may_replace, std::function<void()> still_here,
+                       QObject* parent)
+    : QObject(parent),
+      window_(window),
+      may_end_(std::move(may_end)),
+      may_replace_(std::move(may_replace)),
+      still_here_(std::move(still_here)) {
   window_.installEventFilter(this);
   QTimer::singleShot(0, this, [this] { guard_actions(); });  // once ParaView's menus are there
 }
@@ -62,7 +69,9 @@ void HostGuards::guard_recent(pqRecentFilesMenu& recent) {
     connect(menu, &QMenu::triggered, &recent, [this, &recent](QAction* chosen) {
       const bool is_state = names_state(chosen->text()) || names_state(chosen->data().toString());
       if (is_state && !may_replace_()) return;
+      const QPointer<pqServer> before = pqActiveObjects::instance().activeServer();
       QMetaObject::invokeMethod(&recent, "onOpenResource", Q_ARG(QAction*, chosen));
+      look_afterwards(before);
     });
   }
 }
@@ -70,8 +79,18 @@ void HostGuards::guard_recent(pqRecentFilesMenu& recent) {
 /// ParaView's own is done after the question, and not beside it.
 void HostGuards::guard(QAction& action, QObject& done_by, const May& may, const std::function<void()>& go_on) {
   if (!QObject::disconnect(&action, SIGNAL(triggered(bool)), &done_by, nullptr)) return;
-  connect(&action, &QAction::triggered, this, [may, go_on] {
-    if (may()) go_on();
+  connect(&action, &QAction::triggered, this, [this, may, go_on] {
+    if (!may()) return;
+    const QPointer<pqServer> before = pqActiveObjects::instance().activeServer();
+    go_on();
+    look_afterwards(before);
+  });
+}
+
+/// In the next turn of the event loop: the program may be about to end.
+void HostGuards::look_afterwards(const QPointer<pqServer>& before) {
+  QTimer::singleShot(0, this, [this, before] {
+    if (before && before == pqActiveObjects::instance().activeServer()) still_here_();
   });
 }
 
@@ -79,7 +98,11 @@ bool HostGuards::eventFilter(QObject* watched, QEvent* event) {
   if (watched != &window_) return QObject::eventFilter(watched, event);
   const bool closes = event->type() == QEvent::Close;
   const bool loads = event->type() == QEvent::Drop && brings_state(*static_cast<QDropEvent*>(event));
-  if (!(closes && !may_end_()) && !(loads && !may_replace_())) return QObject::eventFilter(watched, event);
+  if (!closes && !loads) return QObject::eventFilter(watched, event);
+  if (closes ? may_end_() : may_replace_()) {
+    look_afterwards(pqActiveObjects::instance().activeServer());
+    return QObject::eventFilter(watched, event);
+  }
   event->ignore();
   return true;
 }

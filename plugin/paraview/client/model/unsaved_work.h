@@ -46,6 +46,8 @@ class UnsavedWork {
   void keep_scene() { scene_let_go_.clear(); }
   /// The same for the scene and all marks: of_program() is empty.
   void let_all_go();
+  /// They are still here after all: of_program() is as before.
+  void keep_all() { all_let_go_.clear(); }
 
  private:
   Unsaved all() const;

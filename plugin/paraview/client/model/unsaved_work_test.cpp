@@ -170,6 +170,10 @@ TEST_F(Unsaving, WhatTheUserLetGoIsNotAskedAboutAgain) {
   EXPECT_TRUE(unsaved.of_scan().scene) << "the other scan did not come";
   unsaved.let_all_go();
   EXPECT_FALSE(unsaved.of_program().any());
+  unsaved.keep_all();
+  EXPECT_TRUE(unsaved.of_program().scene) << "no state was chosen";
+  EXPECT_EQ(unsaved.of_program().marks, 1U);
+  unsaved.let_all_go();
   set_strength(0.6);
   EXPECT_TRUE(unsaved.of_scan().scene);
   EXPECT_TRUE(unsaved.of_program().scene);

@@ -177,6 +177,13 @@ void the_end_is_asked_about() {
   expect(window.isVisible() && reader_in_pipeline() != 0, "no state takes the place of what is open");
   in_next_file_dialog([](QDialog& dialog, QLineEdit&) { dialog.reject(); });
   in_dialog_of(
+      "a state that is not chosen after all",
+      [&] { window.findChild<QAction*>(QStringLiteral("actionFileLoadServerState"))->trigger(); },
+      [](QDialog& question) { answer(question, "Discard"); });
+  wait_ms(300);
+  expect(window.isVisible() && reader_in_pipeline() != 0, "all is still open, and asked about again");
+  in_next_file_dialog([](QDialog& dialog, QLineEdit&) { dialog.reject(); });
+  in_dialog_of(
       "closing once more", [&] { window.close(); }, [](QDialog& question) { answer(question, "Save"); });
   expect(window.isVisible(), "who names no file has not saved, and the program goes on");
 
