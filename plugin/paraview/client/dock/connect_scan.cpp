@@ -109,7 +109,9 @@ void PanelParts::adopt_state() {
     marks.forget();
   }
   kept.replace(scene);
-  if (reader) readers.restore(*reader, Brought::by_state);
+  if (!reader) return;  // marks of the scan may be kept now that are not in the file
+  unsaved.note_state_saved();
+  readers.restore(*reader, Brought::by_state);
 }
 
 /// In good order: another server, none, or a new session.

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "modes/scene/scene_json.h"
@@ -118,6 +120,24 @@ TEST_F(Unsaving, AStateThatWasLoadedIsSaved) {
   loaded.modes.front().strength_n = modes::TransferFunction(0.33);
   kept.put("Scene", modes::to_json(loaded));
   unsaved.note_state_saved();
+  EXPECT_FALSE(unsaved.of_program().any());
+  set_strength(0.6);
+  EXPECT_TRUE(unsaved.of_program().scene);
+}
+
+TEST_F(Unsaving, AStateIsSavedWhoseSceneIsReadyLater) {
+  std::function<void()> ready;
+  scene.set_make_ready([&ready](const modes::Scene&, std::function<void()> then) {
+    ready = std::move(then);
+    return true;
+  });
+  modes::Scene loaded = modes::load_scene("ct-chest");
+  loaded.modes.front().strength_n = modes::TransferFunction(0.33);
+  kept.put("Scene", modes::to_json(loaded));
+  unsaved.note_state_saved();
+  ASSERT_TRUE(ready);
+  ready();
+  ASSERT_EQ(modes::to_json(scene.scene()), modes::to_json(loaded));
   EXPECT_FALSE(unsaved.of_program().any());
   set_strength(0.6);
   EXPECT_TRUE(unsaved.of_program().scene);

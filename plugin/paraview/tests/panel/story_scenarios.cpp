@@ -3,6 +3,7 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
@@ -16,12 +17,15 @@
 #include <vtkSMTrace.h>
 #include <vtkTable.h>
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDialog>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QTimer>
 #include <QWidget>
 
 #include <cstdio>
@@ -210,6 +214,22 @@ void a_session_is_restored() {
   press_once();
 }
 
+/// Closes the window. A question, if there is one, is answered with Cancel.
+bool closes_unasked() {
+  bool asked = false;
+  QTimer looking;
+  QObject::connect(&looking, &QTimer::timeout, [&asked] {
+    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    if (!dialog) return;
+    asked = true;
+    dialog->reject();
+  });
+  constexpr int poll_ms = 200;
+  looking.start(poll_ms);
+  pqCoreUtilities::mainWidget()->close();
+  return !asked && !pqCoreUtilities::mainWidget()->isVisible();
+}
+
 /// In a program that has another scan open, with an edited scene: all is as in the program that began with the state.
 void a_session_is_loaded() {
   scan_is_shown();
@@ -221,6 +241,7 @@ void a_session_is_loaded() {
   connect_stylus();
   press_once();
   expect(label("palpateFelt").contains("Scene: Restored from the state file."), "the state's scene is felt");
+  expect(closes_unasked(), "what is in the state file is saved");
 }
 
 /// All that one does is traced; pvpython repeats it.
