@@ -172,6 +172,8 @@ void ScanPipeline::show_now(const SeriesRef& of, int frame, const Made& made) {
     made(words(say("paraview-is-not-connected-to-a-server")).toStdString());
     return;
   }
+  // Undo would bring a deleted reader back beside the one that is made now.
+  if (auto* const steps = pqApplicationCore::instance()->getUndoStack()) steps->clear();
   try {
     SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
     views_.close();

@@ -308,6 +308,18 @@ void a_scan_is_overtaken() {
   expect(!find<QWidget>("palpateCover").isVisible(), "nothing waits for them");
   choose_series(1);
   expect_four_views_of_one_scan();
+
+  // Undo, while the next scan's views are made, does not bring the deleted scan back beside it.
+  click("palpateScanSectionFold");
+  is_laid_out(*series.viewport());
+  pqDeleteReaction::deleteSources({&reader()});
+  wait_for(
+      "the scan is gone", [] { return label("palpateFelt") == "No scan is open."; }, 20);
+  (void)half_shown(0);
+  pqUndoStack& undo = *pqApplicationCore::instance()->getUndoStack();
+  if (undo.canUndo()) undo.undo();
+  scan_is_shown();
+  expect_four_views_of_one_scan();
   connect_stylus();
 }
 
