@@ -151,8 +151,8 @@ void ScanModel::bring(std::size_t series) {
   const FoundList list = *found();
   const SeriesRef of = list.at(series);
   const unsigned run = ++find_;
+  give_up_fetching(words(say("cancelled")));  // one worker reads for both
   if (!of.details()) {
-    give_up_fetching(words(say("cancelled")));
     begin_showing(of, nullptr);
     return;
   }

@@ -8,7 +8,9 @@
 #include <utility>
 #include <variant>
 
+#include "plugin/messages/messages.h"
 #include "plugin/paraview/client/model/testing/scan_rig.h"
+#include "plugin/paraview/client/words.h"
 
 namespace palpate::plugin {
 namespace {
@@ -95,6 +97,35 @@ TEST_F(ScanModelFollowed, WhatIsOvertakenIsStopped) {
   model.cancel();
   EXPECT_GT(world.stopped, before);
   EXPECT_GT(world.fetching_stopped, fetching_before);
+}
+
+TEST_F(ScanModelFollowed, AScanIsNotFetchedAnyMoreWhereAnotherSeriesIsRead) {
+  model.open("/two");
+  world.found_.back()(folder("/two", {series("1", "A", 1), series("2", "A", 1)}), {});
+  model.choose(0);
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  const SeriesRef of = model.shown()->of;
+  model.lose();
+  model.restore(of, Brought::by_undo);
+  ASSERT_TRUE(std::holds_alternative<in_views::Fetching>(model.in_views()));
+  take_reported();
+  const int before = world.fetching_stopped;
+  model.choose(1);
+  EXPECT_GT(world.fetching_stopped, before);
+  EXPECT_TRUE(std::holds_alternative<in_views::OutOfReach>(model.in_views()));
+  EXPECT_EQ(take_reported(), QStringList(QStringLiteral("out of reach ") + words(say("cancelled"))));
+  ASSERT_TRUE(model.on_its_way());
+  EXPECT_EQ(model.on_its_way()->name, "2");
+  world.loaded_.back()({}, "it is broken");
+  EXPECT_FALSE(model.on_its_way()) << "nothing comes any more";
+  world.fetched_.back()({.volume = voxels(), .of = of});
+  EXPECT_EQ(model.shown(), nullptr) << "that one was given up";
+  model.choose(0);
+  world.loaded_.back()(voxels(), {});
+  world.made_.back()({});
+  ASSERT_NE(model.shown(), nullptr);
+  EXPECT_EQ(model.shown()->of.name, "1");
 }
 
 TEST_F(ScanModelFollowed, NothingLeavesWhereTheUserDoesNotWantIt) {
