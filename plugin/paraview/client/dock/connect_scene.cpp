@@ -1,5 +1,13 @@
 #include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
+#include <vtkSMProxy.h>
+
+#include <QPointer>
+#include <QTimer>
+
+#include <string>
+#include <variant>
 
 #include "plugin/paraview/client/dock/parts.h"
 #include "plugin/paraview/client/panel/curves_section.h"
@@ -15,8 +23,13 @@ void PanelParts::connect_scene() {
   const auto reopen = [this] {
     if (!kept.is_open() && readers.source() && scans.shown()) model.reopen();
   };
-  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::sourceRemoved, &dock,
-                   reopen, Qt::QueuedConnection);
+  auto* const pipeline = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(pipeline, &pqServerManagerModel::sourceRemoved, &dock, reopen, Qt::QueuedConnection);
+  QObject::connect(pipeline, &pqServerManagerModel::sourceAdded, &dock, [this](pqPipelineSource* source) {
+    QTimer::singleShot(0, &dock, [this, source = QPointer(source)] {
+      if (source) adopt_undone(*source);
+    });
+  });
   QObject::connect(&model, &SceneModel::changed, &dock, [this](Pace pace) { layers.draw_boundaries(pace); });
   QObject::connect(column->tissues, &TissuesSection::scene_kept, &dock, [this] { unsaved.note_scene_saved(); });
   QObject::connect(column, &Column::boundaries_wanted, &dock, [this](bool on) { layers.boundaries.set_visible(on); });
@@ -38,6 +51,16 @@ void PanelParts::connect_scene() {
     open_views.show_slice(slice);
     strokes->follow_slice(slice);
   });
+}
+
+/// What keeps scene and marks was deleted with its scan, and undo brings both back. Of a state file, adopt_state()
+/// takes it over.
+void PanelParts::adopt_undone(pqPipelineSource& added) {
+  const bool is_scene = added.getProxy() && added.getProxy()->GetXMLName() == std::string("PalpateScene");
+  if (!is_scene || kept.is_open() || pqApplicationCore::instance()->isLoadingState()) return;
+  const auto* const fetching = std::get_if<in_views::Fetching>(&scans.in_views());
+  const bool is_undone = fetching && fetching->brought == Brought::by_undo;
+  if (is_undone || std::holds_alternative<in_views::Lost>(scans.in_views())) kept.replace(&added);
 }
 
 }  // namespace palpate::plugin

@@ -84,6 +84,7 @@ struct PanelParts {
   void send_marks();
   // connect_scene.cpp
   void connect_scene();
+  void adopt_undone(pqPipelineSource& added);
   // connect_session.cpp
   void connect_session();
   void follow_stylus(const SessionStatus& seen, bool moved);

@@ -17,8 +17,8 @@ class SceneSource : public KeptText {
   using KeptText::KeptText;
 
   pqPipelineSource* source() const { return source_; }
-  /// Takes over a source of the pipeline, restored by a state file; null: the file has none. The previous source is
-  /// removed.
+  /// Takes over a source of the pipeline, restored by a state file or by Undo; null: the file has none. The previous
+  /// source is removed.
   void replace(pqPipelineSource* source);
 
   bool is_open() const override { return source_ != nullptr; }

@@ -128,6 +128,13 @@ int texts_drawn_over(const char* name) {
   return texts;
 }
 
+pqPipelineSource* source_of_the_scene() {
+  for (auto* const source : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>()) {
+    if (source->getProxy()->GetXMLName() == std::string("PalpateScene")) return source;
+  }
+  return nullptr;
+}
+
 /// What is deleted in the pipeline can be brought back, and is felt as before.
 void a_deleted_scan_comes_back() {
   choose_series(0);
@@ -154,6 +161,27 @@ void a_deleted_scan_comes_back() {
     expect(std::abs(number_of_slice() - before) == 1, std::string("the wheel shows the next slice in ") + name);
   }
   save_screen("scan-brought-back");
+
+  // The scan is deleted with what keeps its scene: both come back.
+  find<QDoubleSpinBox>("palpateStrength0").setValue(0.65);
+  wait_for(
+      "the edit is in the scene", [] { return scene_text().find("0.65") != std::string::npos; }, 20);
+  const std::string edited = steady_scene();
+  pqPipelineSource* const scene = source_of_the_scene();
+  expect(scene != nullptr, "the scene is in the pipeline");
+  pqDeleteReaction::deleteSources({&reader(), scene});
+  wait_for(
+      "both are gone",
+      [] { return label("palpateFelt") == "No scan is open." && reader_in_pipeline() == 0 && scene_text().empty(); },
+      20);
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  another_scan_is_shown(0);
+  expect(scene_text() == edited, "the scene is as it was edited");
+  expect(find<QDoubleSpinBox>("palpateStrength0").value() == 0.65, "in the panel, too");
+  expect_four_views_of_one_scan();
+  find<QDoubleSpinBox>("palpateStrength0").setValue(0.55);
+  wait_for(
+      "an edit is kept there again", [] { return scene_text().find("0.55") != std::string::npos; }, 20);
 }
 
 void a_reset_session_has_no_force() {
