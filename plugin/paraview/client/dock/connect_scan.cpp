@@ -149,6 +149,7 @@ void PanelParts::leave_views() {
   column->scan_fold->set_note({});
   leave_structures();
   leave_marks();
+  column->curves->set_study(nullptr, {});
   column->curves->profile().forget();
 }
 

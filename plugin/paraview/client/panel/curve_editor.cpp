@@ -221,6 +221,15 @@ modes::TransferFunction CurveEditor::curve() const {
   return modes::TransferFunction(std::move(nodes), interpolation_);
 }
 
+void CurveEditor::clear() {
+  set_frame({}, across_, 1);
+  widget_->setHistogramTable(nullptr);
+  set_mark({});
+  set_curve(modes::TransferFunction(0.0), Qt::lightGray);
+  axes_->clear();
+  axes_->setToolTip({});
+}
+
 /// The chart within ParaView's widget: it is made with it, and its place is known to it alone.
 void CurveEditor::find_chart() {
   if (mark_) return;

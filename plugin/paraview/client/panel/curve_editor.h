@@ -37,6 +37,8 @@ class CurveEditor : public QWidget {
   /// Replaces the curve; emits no signal.
   void set_curve(const modes::TransferFunction& curve, const QColor& color);
   modes::TransferFunction curve() const;
+  /// No histogram and no curve, as without a scan.
+  void clear();
   /// A line at the value under the pointer in a slice; none: no line.
   void set_mark(std::optional<double> at);
 

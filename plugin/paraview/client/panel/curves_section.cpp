@@ -150,6 +150,7 @@ bool CurvesSection::eventFilter(QObject* watched, QEvent* event) {
 void CurvesSection::set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit) {
   study_ = study;
   unit_ = unit;
+  if (!study_) strength_->clear();
   show_mode();
 }
 

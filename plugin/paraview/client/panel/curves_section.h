@@ -26,6 +26,7 @@ class CurvesSection : public QWidget {
   void set_key_undoes(bool undoes) { key_undoes_ = undoes; }
   CurvesSection(SceneModel& model, SessionController& session, StrokeRunner& strokes, QWidget* parent = nullptr);
 
+  /// Null: there is no scan, or its study has not ended; nothing is shown and nothing can be edited.
   void set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit);
   /// The sample under the pointer in a slice, marked in the histograms; none: no mark.
   void mark(const std::optional<io::Sample>& pointed);

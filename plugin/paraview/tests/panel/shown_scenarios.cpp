@@ -20,8 +20,10 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QEvent>
 #include <QFile>
 #include <QListWidget>
+#include <QObject>
 #include <QPushButton>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -232,6 +234,26 @@ void a_loaded_state_has_no_force() {
   expect_ready_to_feel();
 }
 
+/// Whether a chart was disabled, and what its axes said then.
+class DisabledChart : public QObject {
+ public:
+  explicit DisabledChart(QWidget& chart) : chart_(chart) { chart.installEventFilter(this); }
+  bool was_seen() const { return seen_; }
+  const QString& axes() const { return axes_; }
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::EnabledChange && !chart_.isEnabled()) {
+      seen_ = true;
+      axes_ = label((chart_.objectName() + QStringLiteral("Axes")).toUtf8().constData());
+    }
+    return false;
+  }
+
+ private:
+  QWidget& chart_;
+  bool seen_ = false;
+  QString axes_;
+};
+
 /// What was done to one scan's scene is not undone on another's.
 void undo_belongs_to_a_scan() {
   choose_series(0);
@@ -250,8 +272,12 @@ void undo_belongs_to_a_scan() {
       "done again", [] { return find<QComboBox>("palpateScenes").currentText() == "Found in this scan, edited"; }, 20);
   const std::string first = scene_text();
   const unsigned before = reader_in_pipeline();
+  QWidget& chart = find<QWidget>("palpateStrengthCurve");
+  const DisabledChart disabled(chart);
   choose_series_and(1, "Discard");
   another_scan_is_shown(before);
+  expect(disabled.was_seen() && disabled.axes().isEmpty(), "no curve stands over the histogram of the scan before");
+  expect(chart.isEnabled(), "the study of the other brings its own");
   const std::string second = scene_text();
   expect(second != first, "the other scan has a scene of its own");
   const bool can = find<QWidget>("palpateUndo").isEnabled();
