@@ -45,7 +45,7 @@ void PanelParts::connect_correction() {
     return outline ? std::optional(outline->sample(place).mm) : std::nullopt;
   });
   QObject::connect(&correction, &CorrectionModel::changed, &dock, [this] {
-    column->curves->set_key_undoes(!correction.structure());
+    column->curves->set_key_shows_before(!correction.structure());
     column->footer->set_corrects(correction.structure() != nullptr);
   });
   QObject::connect(&column->structures->correct_box(), &CorrectBox::slice_wanted, &dock,

@@ -141,8 +141,8 @@ void PanelParts::leave(const QString& why) {
 }
 
 void PanelParts::leave_views() {
-  column->study->cancel();
   model.drop_waiting();
+  column->study->cancel();  // what has changed is not studied
   column->filter->give_up();
   open_views.set({});
   layers.forget_scan();

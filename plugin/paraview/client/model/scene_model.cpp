@@ -10,6 +10,7 @@ namespace palpate::plugin {
 namespace {
 
 constexpr const char* scene_key = "Scene";
+constexpr std::size_t most_edits = 20;  // that are remembered
 
 /// From a scene's JSON, or its name or file. Throws if it is not a scene.
 modes::Scene scene_of(const std::string& text) {
@@ -34,7 +35,12 @@ void SceneModel::open(const modes::Scene& scene) {
 }
 
 void SceneModel::reopen() {
-  kept_.open(modes::to_json(scene_));
+  kept_.open(modes::to_json(present()));
+  forget_steps();
+}
+
+void SceneModel::forget_steps() {
+  edits_.clear();
   kept_.forget_steps();
 }
 
@@ -49,6 +55,7 @@ std::optional<modes::Scene> SceneModel::kept() const {
 }
 
 bool SceneModel::propose(const modes::Scene& scene) {
+  shown_before_.reset();
   const QString why = take(scene, Pace::stepped);
   if (!why.isEmpty()) {
     emit refused(why);
@@ -82,6 +89,7 @@ void SceneModel::refuse_text(const QString& why) {
 }
 
 void SceneModel::put(Step step) {
+  if (step.kind != Step::Kind::before) show_now();
   if (!reading_) return run(step);
   if (step.kind == Step::Kind::drag && !waiting_.empty() && waiting_.back().kind == Step::Kind::drag)
     waiting_.pop_back();
@@ -91,6 +99,7 @@ void SceneModel::put(Step step) {
 void SceneModel::run(const Step& step) {
   if (step.kind == Step::Kind::text) return run_text(step);
   if (step.kind == Step::Kind::finish) return keep(step.what);
+  if (step.kind == Step::Kind::now && !shown_before_) return;
   modes::Scene scene = scene_;
   try {
     step.change(scene);
@@ -98,6 +107,7 @@ void SceneModel::run(const Step& step) {
     return tell(QString::fromUtf8(error.what()), step.told);
   }
   if (waits_for(scene, step)) return;
+  if (step.kind == Step::Kind::now) shown_before_.reset();
   const QString why = take(scene, step.kind == Step::Kind::drag ? Pace::dragged : Pace::stepped);
   if (why.isEmpty() && step.kind == Step::Kind::edit) keep(step.what);
   tell(why, step.told);
@@ -134,6 +144,7 @@ void SceneModel::finish_reading(const QString& error) {
   } else if (step.kind == Step::Kind::text) {
     if (step.text == kept_.text(scene_key)) refuse_text(error);
   } else {
+    if (step.kind == Step::Kind::now && shown_before_) shown_before_->ends = false;  // the next change tries again
     tell(error, step.told);
   }
   go_on();
@@ -149,15 +160,17 @@ void SceneModel::go_on() {
 
 void SceneModel::drop_waiting() {
   std::erase_if(waiting_, [](const Step& step) { return step.kind != Step::Kind::text; });
-  if (!reading_ || reading_->kind == Step::Kind::text) return;
-  ++run_;
-  reading_.reset();
+  if (reading_ && reading_->kind != Step::Kind::text) {
+    ++run_;
+    reading_.reset();
+  }
+  if (shown_before_) take(std::exchange(shown_before_, std::nullopt)->now, Pace::stepped);
   go_on();
 }
 
 void SceneModel::put_back() {
   if (!kept_.is_open()) return;
-  text_ = modes::to_json(scene_);
+  text_ = modes::to_json(present());
   kept_.put(scene_key, text_);
 }
 
@@ -185,6 +198,8 @@ void SceneModel::tell(const QString& why, const Told& told) {
 void SceneModel::keep(const QString& what) {
   std::string text = modes::to_json(scene_);
   if (!kept_.is_open() || text == text_) return;
+  if (!what.isEmpty() && text_.starts_with('{')) edits_.push_back({.before = text_, .after = text});
+  if (edits_.size() > most_edits) edits_.pop_front();
   text_ = std::move(text);
   kept_.keep(scene_key, text_, what);
 }
@@ -211,6 +226,36 @@ void SceneModel::pass(const Change& change, const Told& told) {
 
 void SceneModel::finish_drag(const QString& what) {
   put({.kind = Step::Kind::finish, .what = what, .change = {}, .told = {}, .text = {}});
+}
+
+std::optional<modes::Scene> SceneModel::before_last_edit() const {
+  const std::string now = modes::to_json(scene_);
+  std::string text = text_;
+  for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit) {  // what was undone leads to no present text
+    if (edit->after != text) continue;
+    modes::Scene scene = scene_of(edit->before);
+    if (clean_) clean_(scene);
+    scene.filter = scene_.filter;
+    scene.workspace = scene_.workspace;
+    if (modes::to_json(scene) != now) return scene;
+    text = edit->before;
+  }
+  return std::nullopt;
+}
+
+void SceneModel::show_before() {
+  if (shown_before_ || is_waiting()) return;
+  const auto before = before_last_edit();
+  if (!before) return;
+  shown_before_ = {.now = scene_};
+  const auto change = [before = *before](modes::Scene& scene) { scene = before; };
+  put({.kind = Step::Kind::before, .what = {}, .change = change, .told = {}, .text = {}});
+}
+
+void SceneModel::show_now() {
+  if (!shown_before_ || std::exchange(shown_before_->ends, true)) return;
+  const auto change = [now = shown_before_->now](modes::Scene& scene) { scene = now; };
+  put({.kind = Step::Kind::now, .what = {}, .change = change, .told = {}, .text = {}});
 }
 
 }  // namespace palpate::plugin

@@ -88,11 +88,17 @@ class SceneModel : public QObject {
   /// A change that is not a step by itself: felt with a step's ramp, and kept by the next step or by finish_drag().
   void pass(const Change& change, const Told& told = {});
 
+  /// Shows and offers the scene as it was before the last edit, until show_now(), the next change or another scan. It
+  /// is no step, and the pipeline keeps the present scene. Filter and mapping stay, and edits of these alone are passed
+  /// over. Does nothing while a change waits, or if there is no earlier scene.
+  void show_before();
+  void show_now();
+
   bool can_undo() const { return kept_.can_undo(); }
   void undo() { kept_.undo(); }
   void redo() { kept_.redo(); }
   /// Another scan: edits of the previous scan's scene can no longer be undone here.
-  void forget_steps() { kept_.forget_steps(); }
+  void forget_steps();
 
  signals:
   void changed(palpate::plugin::Pace pace);
@@ -101,7 +107,7 @@ class SceneModel : public QObject {
 
  private:
   struct Step {
-    enum class Kind { edit, drag, pass, finish, text };
+    enum class Kind { edit, drag, pass, finish, text, before, now };
     Kind kind = Kind::edit;
     QString what;
     Change change;
@@ -121,6 +127,9 @@ class SceneModel : public QObject {
   void tell(const QString& why, const Told& told);
   void refuse_text(const QString& why);
   void keep(const QString& what);
+  std::optional<modes::Scene> before_last_edit() const;
+  /// The scene, whatever is shown instead.
+  const modes::Scene& present() const { return shown_before_ ? shown_before_->now : scene_; }
 
   KeptText& kept_;
   Commit commit_;
@@ -131,6 +140,15 @@ class SceneModel : public QObject {
   ModeIds mode_ids_;  // of scene_
   std::string text_;  // of the scene, as in the pipeline
   bool edited_ = false;
+  struct Texts {
+    std::string before, after;
+  };
+  std::deque<Texts> edits_;  // the last ones, oldest first
+  struct ShownBefore {
+    modes::Scene now;
+    bool ends = false;  ///< `now` is on its way back
+  };
+  std::optional<ShownBefore> shown_before_;
   std::optional<Step> reading_;  // its files are being read
   std::deque<Step> waiting_;     // the steps after it
   unsigned run_ = 0;             // number of the current reading; other answers are ignored

@@ -124,27 +124,30 @@ void CurvesSection::mark(const std::optional<io::Sample>& pointed) {
 
 bool CurvesSection::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::MouseButtonPress) profile_->rest();  // a drag may pause: it begins with a press
+  if (event->type() == QEvent::ApplicationDeactivate) end_before();
   const bool pressed = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
-  const bool left = event->type() == QEvent::ApplicationDeactivate;
-  if (!pressed && !left && event->type() != QEvent::KeyRelease) return QWidget::eventFilter(watched, event);
-  if (!left) {
-    const auto& key = *static_cast<QKeyEvent*>(event);
-    QWidget* const writes = QApplication::focusWidget();
-    const bool text = writes && (writes->inherits("QLineEdit") || writes->inherits("QAbstractSpinBox") ||
-                                 writes->inherits("QTextEdit"));
-    if (!key_undoes_ || key.key() != Qt::Key_B || key.modifiers() != Qt::NoModifier || text ||
-        QApplication::activeModalWidget()) {
-      return QWidget::eventFilter(watched, event);
-    }
-    if (key.isAutoRepeat()) return true;
+  if (!pressed && event->type() != QEvent::KeyRelease) return QWidget::eventFilter(watched, event);
+  const auto& key = *static_cast<QKeyEvent*>(event);
+  if (key.key() != Qt::Key_B) return QWidget::eventFilter(watched, event);
+  if (key_held_) {  // whatever else is held, open or in focus by now
+    if (!pressed && !key.isAutoRepeat()) end_before();
+    return true;
   }
-  if (pressed && !before_ && model_.can_undo()) {
-    before_ = true;
-    model_.undo();
-  } else if (!pressed && std::exchange(before_, false)) {
-    model_.redo();
+  QWidget* const writes = QApplication::focusWidget();
+  const bool text = writes && (writes->inherits("QLineEdit") || writes->inherits("QAbstractSpinBox") ||
+                               writes->inherits("QTextEdit"));
+  if (!key_shows_before_ || key.modifiers() != Qt::NoModifier || text || QApplication::activeModalWidget()) {
+    return QWidget::eventFilter(watched, event);
   }
-  return !left;  // ParaView would select blocks
+  if (pressed && !key.isAutoRepeat()) {
+    key_held_ = true;
+    model_.show_before();
+  }
+  return true;  // ParaView would select blocks
+}
+
+void CurvesSection::end_before() {
+  if (std::exchange(key_held_, false)) model_.show_now();
 }
 
 void CurvesSection::set_study(const std::shared_ptr<const ScanStudy>& study, const QString& unit) {

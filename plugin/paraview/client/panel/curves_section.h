@@ -22,8 +22,8 @@ class CurvesSection : public QWidget {
   Q_OBJECT
 
  public:
-  /// Whether holding B undoes the last step; off while another section shows its own earlier state.
-  void set_key_undoes(bool undoes) { key_undoes_ = undoes; }
+  /// Whether holding B shows the scene before the last edit; off while another section shows its own earlier state.
+  void set_key_shows_before(bool shows) { key_shows_before_ = shows; }
   CurvesSection(SceneModel& model, SessionController& session, StrokeRunner& strokes, QWidget* parent = nullptr);
 
   /// Null: there is no scan, or its study has not ended; nothing is shown and nothing can be edited.
@@ -37,6 +37,7 @@ class CurvesSection : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void end_before();
   const Counts& counts_of(modes::Datum datum) const;
   void list_modes();
   void show_mode();
@@ -52,8 +53,8 @@ class CurvesSection : public QWidget {
   CurveEditor* gate_;
   CurveProfile* profile_;
   QLabel* message_;
-  bool key_undoes_ = true;
-  bool before_ = false;  // the last edit is undone while a key is held
+  bool key_shows_before_ = true;
+  bool key_held_ = false;
 };
 
 }  // namespace palpate::plugin

@@ -130,9 +130,27 @@ void expect_before_and_after() {
   type("keydown", "b");
   wait_for(
       "while the key is held it is as before", [&] { return std::abs(strength.value() - before) < 0.006; }, 20);
+  const std::string edited = steady_scene();
+  // Other keys that are held at the end keep it from nothing.
+  type("keydown", "shift");
   type("keyup", "b");
   wait_for(
       "and then as it was edited", [&] { return std::abs(strength.value() - after) < 0.006; }, 20);
+  type("keyup", "shift");
+  // A mark that is made meanwhile is a step of its own.
+  connect_stylus();
+  press_key_in(view("Coronal"), "Home");
+  type("keydown", "b");
+  wait_for(
+      "it is as before", [&] { return std::abs(strength.value() - before) < 0.006; }, 20);
+  click("palpateMark");
+  wait_for(
+      "a mark is made", [] { return !marks_text().empty(); }, 20);
+  type("keyup", "b");
+  wait_for(
+      "the edit is there again", [&] { return std::abs(strength.value() - after) < 0.006; }, 20);
+  expect(scene_text() == edited, "and the pipeline had it all the time");
+  click("palpateConnect");
 }
 
 void expect_alike() {
