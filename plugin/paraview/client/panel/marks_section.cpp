@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -60,7 +61,7 @@ void MarksSection::build() {
     if (!listing_) follow_choice();
   });
   connect(list_, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item) {
-    const Row row = row_of(*item);
+    const MarkRow row = row_of(*item);
     if (row.kind == Kind::mark) emit place_wanted(model_.marks().points[row.index].position_mm);
     if (row.kind == Kind::path) emit place_wanted(model_.marks().paths[row.index].points_mm.front());
   });
@@ -94,22 +95,9 @@ QString MarksSection::unit() const {
   return session_.live().scan() ? text(session_.live().scan()->unit) : QString();
 }
 
-std::vector<MarksSection::Row> MarksSection::rows() const {
-  const Marks& marks = model_.marks();
-  std::vector<Row> all;
-  for (const auto& [kind, count] : {std::pair{Kind::mark, marks.points.size()},
-                                    {Kind::path, marks.paths.size()},
-                                    {Kind::distance, marks.distances.size()},
-                                    {Kind::angle, marks.angles.size()}}) {
-    for (std::size_t n = 0; n < count; ++n) all.push_back({kind, n});
-  }
-  return all;
-}
-
-MarksSection::Row MarksSection::row_of(const QTreeWidgetItem& item) const {
-  const std::vector<Row> all = rows();
+MarkRow MarksSection::row_of(const QTreeWidgetItem& item) const {
   const int at = list_->indexOfTopLevelItem(const_cast<QTreeWidgetItem*>(&item));
-  return all[static_cast<std::size_t>(at)];
+  return rows_of(model_.marks())[static_cast<std::size_t>(at)];
 }
 
 QString MarksSection::path_in_words(const MarkedPath& path) const {
@@ -127,11 +115,13 @@ QString MarksSection::path_in_words(const MarkedPath& path) const {
   return length;
 }
 
-void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
+void MarksSection::fill(QTreeWidgetItem& item, const MarkRow& row) {
   const Marks& marks = model_.marks();
   const auto name = [&](std::size_t mark) { return text(marks.points[mark].name); };
   QString what, tip;
-  item.setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+  Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+  if (row.kind == Kind::mark || row.kind == Kind::path) flags |= Qt::ItemIsEditable;
+  if (item.flags() != flags) item.setFlags(flags);  // it would bring back the name in an editor
   switch (row.kind) {
     case Kind::mark: {
       const FeltMark& mark = marks.points[row.index];
@@ -141,7 +131,6 @@ void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
       parts << tr("%1 N").arg(mark.force_n, 0, 'f', 2);
       what = parts.join(QStringLiteral(" · "));
       tip = tr("%1\n%2 s after the session began").arg(place_in_words(mark.position_mm)).arg(mark.time_s, 0, 'f', 2);
-      item.setFlags(item.flags() | Qt::ItemIsEditable);
       break;
     }
     case Kind::path: {
@@ -149,7 +138,6 @@ void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
       item.setText(0, text(path.name));
       what = path_in_words(path);
       tip = tr("%1 to %2").arg(place_in_words(path.points_mm.front()), place_in_words(path.points_mm.back()));
-      item.setFlags(item.flags() | Qt::ItemIsEditable);
       break;
     }
     case Kind::distance: {
@@ -172,15 +160,28 @@ void MarksSection::fill(QTreeWidgetItem& item, const Row& row) {
 
 void MarksSection::list() {
   if (std::exchange(listing_, true)) return;
-  const std::vector<Row> all = rows();
-  while (list_->topLevelItemCount() > static_cast<int>(all.size())) {
-    delete list_->takeTopLevelItem(list_->topLevelItemCount() - 1);
+  // An item of the list stays that of the same mark, and with it the choice and a name that is being typed.
+  const Marks now = model_.marks();
+  const auto former = former_rows(listed_of_ == model_.scan() ? listed_ : Marks(), now);
+  std::vector<std::size_t> chosen;  // marks are the first rows
+  for (const std::size_t mark : chosen_) {
+    const auto at = std::ranges::find(former, std::optional(mark));
+    if (at != former.end()) chosen.push_back(static_cast<std::size_t>(at - former.begin()));
   }
-  for (std::size_t n = 0; n < all.size(); ++n) {
+  chosen_ = std::move(chosen);
+  for (int n = list_->topLevelItemCount() - 1; n >= 0; --n) {
+    if (std::ranges::find(former, std::optional(static_cast<std::size_t>(n))) == former.end()) {
+      delete list_->takeTopLevelItem(n);
+    }
+  }
+  const std::vector<MarkRow> rows = rows_of(now);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
     const int at = static_cast<int>(n);
-    if (at >= list_->topLevelItemCount()) list_->addTopLevelItem(new QTreeWidgetItem);
-    fill(*list_->topLevelItem(at), all[n]);
+    if (!former[n]) list_->insertTopLevelItem(at, new QTreeWidgetItem);
+    fill(*list_->topLevelItem(at), rows[n]);
   }
+  listed_ = now;
+  listed_of_ = model_.scan();
   listing_ = false;
   follow_choice();
   emit listed();
@@ -189,7 +190,7 @@ void MarksSection::list() {
 void MarksSection::follow_choice() {
   std::set<std::size_t> now;
   for (const QTreeWidgetItem* const item : list_->selectedItems()) {
-    if (const Row row = row_of(*item); row.kind == Kind::mark) now.insert(row.index);
+    if (const MarkRow row = row_of(*item); row.kind == Kind::mark) now.insert(row.index);
   }
   std::erase_if(chosen_, [&](std::size_t mark) { return !now.contains(mark); });
   for (const std::size_t mark : now) {
@@ -225,7 +226,7 @@ void MarksSection::show_uses() {
 }
 
 void MarksSection::rename(const QTreeWidgetItem& item) {
-  const Row row = row_of(item);
+  const MarkRow row = row_of(item);
   const std::string name = item.text(0).trimmed().toStdString();
   if (!name.empty()) {
     model_.edit(tr("Rename to %1").arg(text(name)), [&](Marks& marks) {
@@ -259,15 +260,15 @@ void MarksSection::move_here() {
 }
 
 void MarksSection::remove() {
-  std::vector<Row> gone;
+  std::vector<MarkRow> gone;
   for (const QTreeWidgetItem* const item : list_->selectedItems()) gone.push_back(row_of(*item));
   // From the last to the first, and measures before the marks that they are of, so that indices stay right.
-  std::ranges::sort(gone,
-                    [](const Row& a, const Row& b) { return a.kind != b.kind ? a.kind > b.kind : a.index > b.index; });
+  std::ranges::sort(
+      gone, [](const MarkRow& a, const MarkRow& b) { return a.kind != b.kind ? a.kind > b.kind : a.index > b.index; });
   list_->clearSelection();
   model_.edit(tr("Delete marks"), [&](Marks& marks) {
     const auto erase = [](auto& from, std::size_t n) { from.erase(from.begin() + static_cast<std::ptrdiff_t>(n)); };
-    for (const Row& row : gone) {
+    for (const MarkRow& row : gone) {
       if (row.kind == Kind::mark) remove_mark(marks, row.index);
       if (row.kind == Kind::path) erase(marks.paths, row.index);
       if (row.kind == Kind::distance) erase(marks.distances, row.index);

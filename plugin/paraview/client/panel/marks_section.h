@@ -4,9 +4,10 @@
 
 #include <QWidget>
 
-#include <optional>
+#include <string>
 #include <vector>
 
+#include "plugin/paraview/client/model/mark_rows.h"
 #include "plugin/paraview/client/model/marks_model.h"
 #include "plugin/paraview/client/model/session_controller.h"
 
@@ -40,17 +41,12 @@ class MarksSection : public QWidget {
   void send_wanted();
 
  private:
-  enum class Kind { mark, path, distance, angle };
-  struct Row {
-    Kind kind = Kind::mark;
-    std::size_t index = 0;
-  };
+  using Kind = MarkRow::Kind;
 
   void build();
   void list();
   QString path_in_words(const MarkedPath& path) const;
-  void fill(QTreeWidgetItem& item, const Row& row);
-  std::vector<Row> rows() const;
+  void fill(QTreeWidgetItem& item, const MarkRow& row);
   void follow_choice();
   void show_measure();
   void show_uses();
@@ -58,7 +54,7 @@ class MarksSection : public QWidget {
   void keep_measure();
   void move_here();
   void remove();
-  Row row_of(const QTreeWidgetItem& item) const;
+  MarkRow row_of(const QTreeWidgetItem& item) const;
   QString unit() const;
 
   MarksModel& model_;
@@ -73,6 +69,8 @@ class MarksSection : public QWidget {
   QPushButton* send_ = nullptr;
   MarksSender* sender_ = nullptr;
   std::vector<std::size_t> chosen_;  // chosen marks, in the order of choice
+  Marks listed_;                     // the marks in the list
+  std::string listed_of_;            // their scan
   bool listing_ = false;
 };
 

@@ -9,9 +9,12 @@
 #include <vtkSMTrace.h>
 
 #include <QAction>
+#include <QCoreApplication>
 #include <QFile>
 #include <QImage>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
 
@@ -161,6 +164,38 @@ void marks_are_where_the_stylus_was() {
   }
 }
 
+/// With four marks: a path is chosen, and then its name typed, while a mark takes the row above it.
+void a_chosen_path_stays_chosen() {
+  const auto path_is_made = [](int rows, const char* key) {
+    hold_key_in(view("Coronal"), "m", true);
+    step(key, 10);
+    hold_key_in(view("Coronal"), "m", false);
+    has_rows(rows, "a path is made");
+  };
+  path_is_made(5, "Left");
+  choose_marks({4});
+  mark_by_key();
+  expect(mark_list().topLevelItem(5)->isSelected() && !mark_list().topLevelItem(4)->isSelected(),
+         "the path is still what is chosen");
+  click("palpateDeleteMark");
+  wait_for(
+      "the path is deleted", [] { return kept_marks().paths.empty(); }, 20);
+  expect(kept_marks().points.size() == 5, "and no mark");
+  path_is_made(6, "Right");
+  mark_list().editItem(mark_list().topLevelItem(5), 0);
+  auto* const editor = mark_list().findChild<QLineEdit*>();
+  expect(editor != nullptr, "a name can be typed");
+  editor->setText("along the rib");
+  find<QPushButton>("palpateMark").click();  // as the stylus' own button: the focus stays
+  has_rows(7, "the button marks");
+  expect(editor->text() == "along the rib", "what was typed stays");
+  QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
+  QCoreApplication::sendEvent(editor, &enter);
+  wait_for(
+      "the path has the name", [] { return kept_marks().paths[0].name == "along the rib"; }, 20);
+  expect(kept_marks().points[5].name == "Mark 6", "and not the mark");
+}
+
 /// Distance and angle by the places alone; each step taken back and done again.
 void marks_are_measured_and_changed() {
   scan_is_shown();
@@ -217,7 +252,8 @@ void marks_are_measured_and_changed() {
   expect(glm::distance(moved, marks.points[2].position_mm) > 4, "to where the hand went");
   mark_by_key();  // the hand has not moved since
   expect(glm::distance(moved, kept_marks().points[3].position_mm) < 0.5, "where a mark would be now");
-  for (int n = 0; n < 10 && !marks_text().empty(); ++n) click("palpateUndoMark");
+  a_chosen_path_stays_chosen();
+  for (int n = 0; n < 15 && !marks_text().empty(); ++n) click("palpateUndoMark");
   has_rows(0, "all is taken back");
   expect(!toolbar_tells(), "the toolbar tells of none");
 }
