@@ -32,6 +32,8 @@ def sampled():
     more = {"PALPATE_HEAD": "1"} if os.path.exists(HEAD) else {}
     if not run("a_sample_is_tried", **more):
         return False
+    if not run("a_sample_comes_too_late", PALPATE_DROP=phantom("ball", "sphere", "--radius", "25"), **more):
+        return False
     # Where the cache cannot be written, it is said.
     return run("a_sample_cannot_be_written", XDG_CACHE_HOME="/proc/nowhere")
 

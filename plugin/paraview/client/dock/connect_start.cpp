@@ -3,6 +3,7 @@
 #include <QMainWindow>
 #include <QPointer>
 
+#include <memory>
 #include <utility>
 
 #include "plugin/messages/messages.h"
@@ -66,12 +67,16 @@ void PanelParts::connect_start() {
 
   auto* const sample = new SampleScan(&dock);
   page->set_sample(sample->offer());
-  QObject::connect(page, &StartPage::sample_wanted, sample, [page, sample] {
+  const auto requests_before = std::make_shared<unsigned>();
+  QObject::connect(page, &StartPage::sample_wanted, sample, [this, page, sample, requests_before] {
     page->tell(words(say("sample-is-written")));
+    *requests_before = scans.requests();
     sample->make();
   });
-  QObject::connect(sample, &SampleScan::ready, column->scan,
-                   [this](const QString& folder) { column->scan->open(folder.toStdString()); });
+  // A scan that was asked for meanwhile stays; the sample can be asked for again.
+  QObject::connect(sample, &SampleScan::ready, column->scan, [this, requests_before](const QString& folder) {
+    if (scans.requests() == *requests_before) column->scan->open(folder.toStdString());
+  });
   QObject::connect(sample, &SampleScan::failed, page, [page](const QString& why) { page->tell(why, true); });
 }
 

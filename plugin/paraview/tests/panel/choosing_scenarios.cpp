@@ -1,7 +1,10 @@
 // From an empty ParaView to a scan, and from there to a force. choosing_test.py names the folders.
 
 #include <pqCoreUtilities.h>
+#include <pqPipelineSource.h>
 #include <pqTabbedMultiViewWidget.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
 
 #include <QCoreApplication>
 #include <QDir>
@@ -20,9 +23,11 @@
 #include <QScrollArea>
 #include <QUrl>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "plugin/app/archive_settings.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
 
@@ -196,6 +201,25 @@ void a_sample_is_tried() {
   save_screen("start-sample");
 }
 
+/// A folder that is dropped while the sample is written: its scan stays.
+void a_sample_comes_too_late() {
+  const QString folder = qEnvironmentVariable("PALPATE_DROP");
+  click("palpateStartSample");
+  drop_folder(folder);
+  const auto is_the_folders = [&folder] {
+    return reader_in_pipeline() != 0 &&
+           QString(vtkSMPropertyHelper(reader().getProxy(), "FileName").GetAsString()).startsWith(folder);
+  };
+  wait_for("the folder's scan is in the pipeline", is_the_folders);
+  const auto sample = palpate::plugin::user_folder("XDG_CACHE_HOME", ".cache") /
+                      (qEnvironmentVariableIsSet("PALPATE_HEAD") ? "sample-head" : "sample-phantom");
+  wait_for(
+      "the sample is written", [&sample] { return std::filesystem::exists(sample); }, 180);
+  wait_ms(2000);
+  scan_is_shown();
+  expect(is_the_folders(), "the sample does not take its place");
+}
+
 void a_sample_cannot_be_written() {
   click("palpateStartSample");
   wait_for("it is said",
@@ -226,6 +250,7 @@ const Scenarios& choosing_scenarios() {
       {"folders_are_opened_again", folders_are_opened_again},
       {"a_recent_folder_is_pressed", a_recent_folder_is_pressed},
       {"a_sample_is_tried", a_sample_is_tried},
+      {"a_sample_comes_too_late", a_sample_comes_too_late},
       {"a_sample_cannot_be_written", a_sample_cannot_be_written},
       {"felt_in_six_presses", felt_in_six_presses},
   };
