@@ -74,10 +74,8 @@ QWidget* Column::build_tissues(const Follows& models) {
   column->addWidget(tissues);
   study = new TissueStudy(models.scene, models.session, box);
   connect(study, &TissueStudy::studied, this,
-          [this](const auto& found, const modes::Scene& proposed, const QString& unit) {
-            tissues->set_proposed(proposed);
-            curves->set_study(found, unit);
-          });
+          [this](const auto& found, const QString& unit) { curves->set_study(found, unit); });
+  connect(study, &TissueStudy::proposed, tissues, &TissuesSection::set_proposed);
   column->addWidget(study);
   auto* const drawn = new QCheckBox(tr("Boundaries on the slices"), box);
   drawn->setObjectName(QStringLiteral("palpateContours"));

@@ -82,6 +82,7 @@ void PanelParts::show_frame(const ScanHandle& handle) {
   layers.flow.set_volume(handle.volume);
   looks.show_frame_values();
   layers.draw_boundaries();
+  column->study->study_frame(handle.volume);
   note_scan(handle);
 }
 

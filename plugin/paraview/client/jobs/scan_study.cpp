@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "modes/scene/suggest.h"
-#include "plugin/app/open_scan.h"
 
 namespace palpate::plugin {
 namespace {
@@ -39,10 +38,10 @@ std::pair<double, double> range_of(const io::Volume& volume) {
 ScanStudy study_scan(const std::shared_ptr<const io::Volume>& volume, const io::Progress& progress) {
   constexpr double suggesting = 0.6;  // of the work
   ScanStudy study;
-  study.suggested = modes::suggest(volume, [&](double done) { return progress(suggesting * done); }).scene;
+  const modes::Scene found = modes::suggest(volume, [&](double done) { return progress(suggesting * done); }).scene;
   study.sites = std::make_shared<const modes::SiteMap>(volume);
-  // The steps in a flow's speed are not boundaries: flow has a scene of its own.
-  if (study.suggested.modes.empty() || volume->vectors) study.suggested = scene_for("", *volume);
+  // The steps in a flow's speed are not boundaries.
+  if (!found.modes.empty() && !volume->vectors) study.suggested = found;
   const auto [low, high] = range_of(*volume);
   const double scale_mm = io::default_gradient_scale_mm(volume->geometry);
   // At the middle of a step of the whole range, blurred by the Gaussian, it is as steep as this.

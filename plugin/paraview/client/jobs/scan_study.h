@@ -3,6 +3,7 @@
 /// Background analysis of a loaded scan: the scene that it suggests, and the histograms behind its transfer functions.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/fields/histogram.h"
@@ -20,9 +21,9 @@ struct Counts {
 };
 
 struct ScanStudy {
-  modes::Scene suggested;  ///< a starting scene if nothing was found
-  Counts values;           ///< in the scan's unit
-  Counts magnitudes;       ///< of the gradient, per mm
+  std::optional<modes::Scene> suggested;  ///< none if nothing was found, and for a flow
+  Counts values;                          ///< in the scan's unit
+  Counts magnitudes;                      ///< of the gradient, per mm
   std::shared_ptr<const modes::SiteMap> sites;
 };
 

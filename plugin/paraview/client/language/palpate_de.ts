@@ -2287,8 +2287,8 @@ ID %2, Studie vom %3</translation>
 <context>
     <name>TissuesSection</name>
     <message>
-        <source>A scene defines which boundaries are felt. The first in the list was made from this scan.</source>
-        <translation>Eine Szene sagt, was gefühlt wird. Die erste der Liste wurde aus dieser Aufnahme gemacht.</translation>
+        <source>A scene defines which boundaries are felt. The first in the list is the one found in this scan.</source>
+        <translation>Eine Szene sagt, was gefühlt wird. Die erste der Liste ist die in dieser Aufnahme gefundene.</translation>
     </message>
     <message>
         <source>Found in this scan</source>
@@ -2309,6 +2309,10 @@ ID %2, Studie vom %3</translation>
     <message>
         <source>Saves this scene to a file</source>
         <translation>Speichert diese Szene in eine Datei</translation>
+    </message>
+    <message>
+        <source>No boundaries were found in this scan.</source>
+        <translation>In dieser Aufnahme wurden keine Grenzen gefunden.</translation>
     </message>
     <message>
         <source>Made for %1. This scan is of another kind.</source>

@@ -2,6 +2,8 @@
 
 #include <QCoreApplication>
 
+#include <utility>
+
 namespace palpate::plugin {
 
 TissueStudy::TissueStudy(SceneModel& model, SessionController& session, QWidget* parent)
@@ -18,9 +20,18 @@ TissueStudy::TissueStudy(SceneModel& model, SessionController& session, QWidget*
 }
 
 void TissueStudy::study(const std::shared_ptr<const io::Volume>& volume) {
+  proposes_ = true;
+  begin(volume);
+}
+
+void TissueStudy::study_frame(const std::shared_ptr<const io::Volume>& volume) {
+  if (volume != studied_.lock()) begin(volume);
+}
+
+void TissueStudy::begin(const std::shared_ptr<const io::Volume>& volume) {
   studied_ = volume;
   setValue(0);
-  show();
+  setVisible(proposes_);  // at another frame nothing moves in the panel
   job_.study(
       volume, [this](double done) { setValue(static_cast<int>(100 * done)); },
       [this, unit = QString::fromStdString(volume->unit)](const auto& study, const std::string& error) {
@@ -31,18 +42,21 @@ void TissueStudy::study(const std::shared_ptr<const io::Volume>& volume) {
 }
 
 void TissueStudy::take(const std::shared_ptr<const ScanStudy>& study, const QString& unit) {
-  modes::Scene proposed = study->suggested;
-  proposed.workspace = model_.scene().workspace;
-  emit studied(study, proposed, unit);
+  emit studied(study, unit);
   session_.set_sites(study->sites);
+  if (!std::exchange(proposes_, false)) return;
+  std::optional<modes::Scene> found = study->suggested;
+  if (found) found->workspace = model_.scene().workspace;
+  emit proposed(found);
   // A felt or edited scene is not replaced under the user's hand.
-  if (!model_.is_edited() && !session_.live().is_connected()) model_.propose(proposed);
+  if (found && !model_.is_edited() && !session_.live().is_connected()) model_.propose(*found);
 }
 
 void TissueStudy::cancel() {
   job_.cancel();
   hide();
   studied_.reset();
+  proposes_ = false;
 }
 
 }  // namespace palpate::plugin

@@ -57,7 +57,8 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   auto* const top = new QHBoxLayout;
   scenes_ = new QComboBox(this);
   scenes_->setObjectName(QStringLiteral("palpateScenes"));
-  scenes_->setToolTip(tr("A scene defines which boundaries are felt. The first in the list was made from this scan."));
+  scenes_->setToolTip(
+      tr("A scene defines which boundaries are felt. The first in the list is the one found in this scan."));
   choices_.push_back({tr("Found in this scan"), {}, {}});
   for (const std::string& name : modes::starting_scenes()) {
     const modes::Scene scene = modes::load_scene(name);
@@ -98,9 +99,15 @@ TissuesSection::TissuesSection(SceneModel& model, QWidget* parent) : QWidget(par
   build_rows();
 }
 
-void TissuesSection::set_proposed(const modes::Scene& scene) {
-  choices_.front().scene = scene;
-  choices_.front().text = text_of(scene);
+void TissuesSection::set_proposed(const std::optional<modes::Scene>& scene) {
+  if (scene) {
+    choices_.front().scene = *scene;
+    choices_.front().text = text_of(*scene);
+    for (const int role : {Qt::ToolTipRole, Qt::ForegroundRole}) scenes_->setItemData(0, {}, role);
+  } else {
+    scenes_->setItemData(0, tr("No boundaries were found in this scan."), Qt::ToolTipRole);
+    scenes_->setItemData(0, palette().color(QPalette::Disabled, QPalette::Text), Qt::ForegroundRole);
+  }
   follow_origin();
 }
 

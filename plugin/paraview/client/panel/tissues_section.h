@@ -26,8 +26,8 @@ class TissuesSection : public QWidget {
  public:
   explicit TissuesSection(SceneModel& model, QWidget* parent = nullptr);
 
-  /// The scene proposed for the scan: the first in the list of scenes.
-  void set_proposed(const modes::Scene& scene);
+  /// The scene found in the scan: the first in the list of scenes. None: nothing was found, and the list says so.
+  void set_proposed(const std::optional<modes::Scene>& scene);
   /// Another scan is shown, without a search so far. After the scene proposed for this scan, the list has the starting
   /// scene that suits it, and last the scenes for other types of scan.
   void forget_scan(const ScanHandle& shown);

@@ -89,8 +89,11 @@ void frames_are_felt_as_shown() {
         [&] { return is_near(number("palpateTissue") / felt_first, stream_at(frame) / stream_at(0), 0.04); }, 20);
   };
   const auto pqtime = [] { return pqActiveObjects::instance().activeServer()->getTimeKeeper()->getTime(); };
+  const auto top_speed = [] { return find<QDoubleSpinBox>("palpateStrengthCurveAt").maximum(); };
+  const double first_speed = top_speed();
   find<QSlider>("palpateFrame").setValue(1);
   expect_frame(1, "the slider");
+  wait_for("the curves have the frame's histogram", [&] { return top_speed() > 1.2 * first_speed; });
   expect(pqtime() == 1, "ParaView's time is the same");
   views_rest();
   const QImage faster = sagittal.grab().toImage();
@@ -231,6 +234,9 @@ void a_flow_is_shown_and_felt() {
     const QRegularExpressionMatch match = ends.match(label("palpateStrengthCurveAxes").replace(QChar::Nbsp, ' '));
     return match.hasMatch() && match.captured(1).toDouble() < match.captured(2).toDouble();
   });
+  auto& scenes = find<QComboBox>("palpateScenes");
+  expect(scenes.currentText() == "Flow", "the scene was not found in it: " + scenes.currentText().toStdString());
+  expect(scenes.itemData(0, Qt::ToolTipRole).toString().startsWith("No boundaries were found"), "and it is said why");
   save_screen("flow");
   connect_stylus();
   expect(number("palpateForce") < 0.05, "nothing is felt where it begins");
