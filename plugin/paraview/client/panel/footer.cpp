@@ -223,8 +223,12 @@ void Footer::show_state(const SessionStatus& look) {
 }
 
 /// Room is taken for it only where there are structures.
+bool Footer::is_of_the_scan() const {
+  return scan_open_ && !session_.expects_scan();
+}
+
 void Footer::show_distance(const SessionStatus& look) {
-  const bool told = (look.connected || look.replayed) && look.nearest.has_value();
+  const bool told = is_of_the_scan() && (look.connected || look.replayed) && look.nearest.has_value();
   distance_->setVisible(told);
   if (!told) return;
   const modes::Scene& scene = look.scene ? *look.scene : model_.scene();
@@ -263,8 +267,8 @@ void Footer::show_look(const SessionStatus& look) {
   depth_->setToolTip(past);
   const QString tissue = tissue_in_words(look.tissue);
   const std::string unit = session_.live().scan() ? session_.live().scan()->unit : std::string();
-  // Else the tick is of a scan that is gone.
-  tissue_->setText(!scan_open_                 ? QString()
+  // Else the tick is of a scan that is gone, or of the one before.
+  tissue_->setText(!is_of_the_scan()           ? QString()
                    : std::isfinite(tick.value) ? value_text(tick.value, QString::fromStdString(unit), tissue)
                                                : tr("outside the scan"));
   const double error_mm = 1e3 * tick.error_bound_m;

@@ -39,6 +39,8 @@ class Footer : public QWidget {
   QLayout* make_buttons();
   void show_look(const SessionStatus& look);
   void show_state(const SessionStatus& look);
+  /// Whether the ticks are of the open scan, and not of one that is gone or of the one before.
+  bool is_of_the_scan() const;
   void show_distance(const SessionStatus& look);
   void show_technical(bool shown);
   void show_connection();

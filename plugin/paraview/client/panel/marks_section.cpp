@@ -40,6 +40,7 @@ MarksSection::MarksSection(MarksModel& model, SessionController& session, QWidge
   connect(&model, &MarksModel::changed, this, [this] { list(); });
   connect(&model, &MarksModel::refused, this, [this](const QString& why) { tell(why, true); });
   connect(&session, &SessionController::polled, this, [this] { show_uses(); });
+  connect(&session, &SessionController::felt_scan_changed, this, [this] { list(); });  // with its unit
   list();
   tell({});
 }
@@ -92,6 +93,7 @@ void MarksSection::build() {
 }
 
 QString MarksSection::unit() const {
+  if (session_.expects_scan()) return {};  // what is felt is the one before
   return session_.live().scan() ? text(session_.live().scan()->unit) : QString();
 }
 

@@ -78,6 +78,7 @@ FilterRow::FilterRow(SceneModel& model, SessionController& session, ScanModel& s
   message_->hide();
   column->addWidget(message_);
 
+  connect(&session_, &SessionController::felt_scan_changed, this, [this] { follow(); });
   connect(type_, QOverload<int>::of(&QComboBox::activated), this, [this] {
     offer_amount();
     ask();
@@ -119,7 +120,7 @@ void FilterRow::follow_scan() {
 
 /// The row shows the scene's filter.
 void FilterRow::follow() {
-  setEnabled(session_.live().scan() && !session_.live().scan()->vectors);
+  setEnabled(session_.live().scan() && !session_.expects_scan() && !session_.live().scan()->vectors);
   if (!loader_.is_busy()) show(model_.scene().filter);  // else it says what was asked for
 }
 
