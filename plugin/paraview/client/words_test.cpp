@@ -45,11 +45,11 @@ TEST(German, HasEachReasonWhyTheForceStops) {
 TEST(German, KeepsTheValuesOfAMessage) {
   const testing::German german;
   const QString said = words(say("another-scan-is-active-in-the-pipeline", "CT, {} of \xC3\x84", "MR. Choose"));
-  EXPECT_EQ(
-      said.toStdString(),
-      "eine andere Aufnahme, CT, {} of \xC3\x84, ist in ParaViews Liste offener Daten, dem Pipeline Browser, gew\xC3\xA4hlt. W\xC3\xA4hlen Sie dort MR. Choose, "
-      "dann dr\xC3\xBC"
-      "cken Sie F\xC3\xBChlen");
+  EXPECT_EQ(said.toStdString(),
+            "eine andere Aufnahme, CT, {} of \xC3\x84, ist in ParaViews Liste offener Daten, dem Pipeline Browser, "
+            "gew\xC3\xA4hlt. W\xC3\xA4hlen Sie dort MR. Choose, "
+            "dann dr\xC3\xBC"
+            "cken Sie F\xC3\xBChlen");
   // What the catalogue does not have stays as it is.
   const Text unknown = say("boundary-is-another-one", "Skin");
   EXPECT_EQ(words(unknown).toStdString(), std::string(unknown));
