@@ -165,8 +165,6 @@ FOLDERS = {
     "frames_are_felt_as_shown": flow,
     "a_flow_is_shown_and_felt": flow,
     "a_flow_is_drawn_as_a_volume": flow,
-    "surfaces_are_of_the_frame_that_is_shown": spoilt_in_frames,
-    "a_recording_is_of_its_frame": spoilt_in_frames,
     "one_tab_is_used_again": both,
     "a_look_is_of_its_scan": both,
     # So fine that its lines take longer than the next picture.
@@ -384,7 +382,8 @@ TESTS["a_volume_without_hu_is_drawn"] = lambda: run("a_volume_without_hu_is_draw
 TESTS["a_closed_scan_is_not_held"] = lambda: run("a_closed_scan_is_not_held", ball(), PALPATE_DROP=phantom(
     "closed", "sphere", "--radius", "25", "--size", "256,256,256", "--spacing", "0.3,0.3,0.3"))
 TESTS["other_files_are_opened_and_felt"] = other_files
-TESTS["an_outline_is_corrected_on_a_frame"] = lambda: run("an_outline_is_corrected_on_a_frame", PALPATE_DROP=spoilt_in_frames())
+for framed in ("an_outline_is_corrected_on_a_frame", "surfaces_are_of_the_frame_that_is_shown", "a_recording_is_of_its_frame"):
+    TESTS[framed] = lambda name=framed: run(name, PALPATE_DROP=spoilt_in_frames())
 TESTS["what_was_deleted_is_not_in_the_state"] = lambda: run(
     "what_was_deleted_is_not_in_the_state", outlined(), PALPATE_OTHER=phantom("other", "slab"))
 main({name: TESTS[name] for name in SCENARIOS}, {name: TESTS[name] for name in BY_NAME})

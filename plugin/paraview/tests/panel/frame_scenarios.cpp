@@ -292,6 +292,7 @@ void a_flow_is_drawn_as_a_volume() {
 
 /// A ball of 25 mm, and of 23 mm in the second frame: surfaces of the first are not seen while the second's are made.
 void surfaces_are_of_the_frame_that_is_shown() {
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
   scan_is_shown();
   auto& looks = find<QComboBox>("palpateVolumeLook");
   looks.setCurrentText("Felt boundaries");

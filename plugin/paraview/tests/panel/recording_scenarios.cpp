@@ -108,6 +108,7 @@ void recordings_are_replayed_and_compared() {
 void a_recording_is_of_its_frame() {
   const QString file = qEnvironmentVariable("PALPATE_PICTURES") + "/first-frame.h5";
   QFile::remove(file);
+  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
   scan_is_shown();
   connect_stylus();
   name_file("palpateRecord", file);
