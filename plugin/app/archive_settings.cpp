@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "plugin/app/archive_json.h"
 #include "plugin/app/errors.h"
 #include "plugin/messages/messages.h"
 

@@ -3,7 +3,6 @@
 /// The archives that a user has configured. The command line and the panel share them.
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,6 @@ std::vector<io::Archive> read_archives();
 /// The file is readable by its owner alone. The old file stays until the new one is complete. Throws std::runtime_error
 /// that names the file.
 void write_archives(const std::vector<io::Archive>& archives);
-
-/// The connection settings, as in the file and in `palpate archive list --json`: name, host, port, AE titles, the
-/// method of fetching, and the address for C-MOVE.
-nlohmann::ordered_json connection_json(const io::Archive& archive);
 
 /// The archive of that name; an empty name means the only one. Throws InputRefused with the list of names if there is
 /// none of that name, or if the name is empty and there are several.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/archive/archive.h"
+#include "plugin/app/archive_json.h"
 #include "plugin/app/archive_settings.h"
 #include "plugin/app/errors.h"
 #include "plugin/app/fetched.h"

@@ -8,6 +8,7 @@
 #include <pqStandardRecentlyUsedResourceLoaderImplementation.h>
 
 #include <QAction>
+#include <QApplication>
 #include <QCoreApplication>
 #include <QDialog>
 #include <QDoubleSpinBox>
@@ -54,6 +55,20 @@ void in_next_file_dialog(const std::function<void(QDialog& dialog, QLineEdit& na
       looking->deleteLater();
       return act(*dialog, *name);
     }
+  });
+  constexpr int poll_ms = 200;
+  looking->start(poll_ms);
+}
+
+/// Rejects the next dialog whose title has these words.
+void reject_dialog_of(const QString& title) {
+  auto* const looking = new QTimer(pqCoreUtilities::mainWidget());
+  QObject::connect(looking, &QTimer::timeout, looking, [looking, title] {
+    auto* const dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    if (!dialog || !dialog->windowTitle().contains(title)) return;
+    looking->stop();
+    looking->deleteLater();
+    dialog->reject();
   });
   constexpr int poll_ms = 200;
   looking->start(poll_ms);
@@ -175,7 +190,7 @@ void the_end_is_asked_about() {
   }
   wait_ms(300);
   expect(window.isVisible() && reader_in_pipeline() != 0, "no state takes the place of what is open");
-  in_next_file_dialog([](QDialog& dialog, QLineEdit&) { dialog.reject(); });
+  reject_dialog_of("Load State");
   in_dialog_of(
       "a state that is not chosen after all",
       [&] { window.findChild<QAction*>(QStringLiteral("actionFileLoadServerState"))->trigger(); },
