@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -75,6 +78,47 @@ TEST(Canvas, TextStandsByItsAnchor) {
     const auto [first, last] = inked(canvas);
     EXPECT_NEAR(first, 100 + from * width, 4);
     EXPECT_NEAR(last, 100 + (from + 1) * width, 4);
+  }
+}
+
+/// An arrow's head is filled, wherever it points: its inside on both sides of its middle has the arrow's color.
+TEST(Canvas, AnArrowsHeadIsFilled) {
+  for (int turn = 0; turn < 16; ++turn) {
+    const double angle = turn * std::numbers::pi / 8;
+    const Point forward(std::cos(angle), std::sin(angle)), side(-forward.y, forward.x), from(50, 50);
+    Canvas canvas(100, 100, colors::white);
+    canvas.arrow(from, from + 40.0 * forward, colors::black);
+    for (const double across : {-1.0, 1.0}) {
+      const Point within = from + 34.0 * forward + across * side;  // 6 pixels behind the tip
+      EXPECT_LT(pixel_at(canvas, static_cast<int>(within.x), static_cast<int>(within.y))[0], 128) << turn;
+    }
+  }
+}
+
+/// How far a place is from a stretch between two others.
+double distance_to(const Point& at, const Point& from, const Point& to) {
+  const Point along = to - from;
+  const double part = std::clamp(glm::dot(at - from, along) / glm::dot(along, along), 0.0, 1.0);
+  return glm::distance(at, from + part * along);
+}
+
+/// A wide line has round corners: nothing of it is farther from its points' connection than half its width.
+TEST(Canvas, ALinesCornersAreRound) {
+  constexpr double width = 12;
+  const Point corner(60, 60);
+  for (const double opening : {0.5, 0.9, 1.4, 1.7}) {
+    const Point a = corner + 40.0 * Point(-std::cos(opening / 2), std::sin(opening / 2));
+    const Point b = corner + 40.0 * Point(-std::cos(opening / 2), -std::sin(opening / 2));
+    Canvas canvas(120, 120, colors::white);
+    canvas.line(std::array{a, corner, b}, colors::black, width);
+    for (int row = 0; row < canvas.height(); ++row) {
+      for (int column = 0; column < canvas.width(); ++column) {
+        const Point at(column + 0.5, row + 0.5);
+        const double far = std::min(distance_to(at, a, corner), distance_to(at, corner, b));
+        const int gray = pixel_at(canvas, column, row)[0];
+        ASSERT_TRUE(far > width / 2 + 1 ? gray > 200 : far > width / 2 - 1 || gray < 50) << column << " " << row;
+      }
+    }
   }
 }
 
