@@ -107,6 +107,39 @@ TEST(SessionPictures, EachModesForceIsDrawnOverTime) {
   }
 }
 
+/// Shares follow one another tick by tick. One of a mode that the scene does not have, the first of them included, is
+/// of none of its modes.
+TEST(SessionPictures, AShareIsOfItsTickAndOfItsMode) {
+  Recording recording;
+  for (int n = 0; n < 40; ++n) {
+    TickRecord tick;
+    tick.index = static_cast<std::uint64_t>(n);
+    tick.share_count = n % 3 == 2 ? 2 : 1;
+    recording.shares.push_back({.tick = tick.index, .mode = n % 2 == 0 ? 0U : 1U, .force_n = {0, 0, 1.0 + n}});
+    const auto beyond = static_cast<std::uint32_t>(2 + n / 3 % 4);
+    if (n % 3 == 2) recording.shares.push_back({.tick = tick.index, .mode = beyond, .force_n = {3, 5, 7}});
+    recording.ticks.push_back(tick);
+  }
+  const Chart chart = force_time_chart(recording, pictured_scene());
+  ASSERT_EQ(chart.curves.size(), 3U);
+  for (std::size_t n = 0; n < 40; ++n) {
+    const double own = 1.0 + static_cast<double>(n);
+    EXPECT_EQ(chart.curves[1].y.at(n), n % 2 == 0 ? own : 0) << n;
+    EXPECT_EQ(chart.curves[2].y.at(n), n % 2 == 1 ? own : 0) << n;
+  }
+}
+
+/// On the chart's axis all bins are equally wide, and the axis is as long as they are.
+TEST(SessionPictures, BinsOfTheTimeOfATickFillALogarithmicAxis) {
+  const Chart chart = tick_time_chart(pictured(), {});
+  EXPECT_TRUE(chart.x.logarithmic);
+  EXPECT_TRUE(chart.y.logarithmic) << "one slow tick among many is seen";
+  EXPECT_NEAR(chart.x.minimum.value(), chart.curves.at(0).x.front(), 1e-9);
+  EXPECT_NEAR(chart.x.maximum.value(), chart.curves.at(0).x.back(), 1e-6);
+  EXPECT_GT(chart.y.minimum.value(), 0);
+  EXPECT_LT(chart.y.minimum.value(), 1);
+}
+
 /// 25 ticks of 1.2 us and five of 119.7: each in the bin that it lies in, twenty of them a decade.
 TEST(SessionPictures, ATicksTimeIsCountedInItsBin) {
   Summary summary;

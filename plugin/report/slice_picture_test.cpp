@@ -180,6 +180,12 @@ TEST(SlicePicture, TheBarIsAsLongAsItSays) {
     const Marked white = marked_in(canvas, {0, bar}, {slice_width / 2.0 - 30, slice_height}, is_white);
     ASSERT_FALSE(white.pixels.empty());
     EXPECT_NEAR(white.width(), 10 * slice_width / extent_mm, 4) << extent_mm;
+    // It is level: its beginning is as high as its end.
+    const double quarter = white.width() / 4.0, begin = white.left, end = white.right + 1;
+    const Marked first = marked_in(canvas, {begin, bar}, {begin + quarter, slice_height}, is_white);
+    const Marked last = marked_in(canvas, {end - quarter, bar}, {end, slice_height}, is_white);
+    EXPECT_EQ(first.top, last.top) << extent_mm;
+    EXPECT_EQ(first.bottom, last.bottom) << extent_mm;
   }
 }
 

@@ -274,5 +274,29 @@ TEST(Summary, FramesRegistrationsAndWhatIsKnownAreToldUnderTheirNames) {
   EXPECT_THAT(to_text(summary, scene, "", ""), Not(HasSubstr("frame "))) << "a scan with one frame";
 }
 
+/// A fault is reported where it begins, also in the first tick, whichever it is.
+TEST(Summary, AFaultOfTheFirstTickIsSaid) {
+  for (int n = 1; n <= static_cast<int>(device::Fault::commander_silent); ++n) {
+    const auto fault = static_cast<device::Fault>(n);
+    Made made;
+    for (int tick = 0; tick < 3; ++tick) made.add(0, 0).safety = pack_safety(device::State::fault, fault);
+    const std::string wanted = std::string("at 2.000 s: ") + device::name_of(fault) + " (";
+    EXPECT_THAT(made.summary().faults, ElementsAre(StartsWith(wanted)));
+  }
+}
+
+/// A solver that this program does not know is counted as none, and as nothing else.
+TEST(Summary, TicksOfAnUnknownSolverAreCountedNowhere) {
+  Made made;
+  for (int n = 0; n < 3; ++n) made.add(0, 0);
+  const Summary known = made.summary();
+  for (const std::uint32_t number : {64U, 65U, 66U, 1000U}) made.add(0, 0).solver = number;
+  const Summary both = made.summary();
+  EXPECT_EQ(both.ticks, 7U);
+  EXPECT_EQ(both.solver_ticks, known.solver_ticks);
+  EXPECT_EQ(both.capped, 0U);
+  EXPECT_EQ(both.refused, 0U);
+}
+
 }  // namespace
 }  // namespace palpate::plugin
