@@ -149,5 +149,16 @@ TEST(SuggestedModes, SidesOfAFaintWallAreCalledDarkerAndBrighter) {
   called(wall->high, "brighter");
 }
 
+/// What is brighter than any soft tissue is bone and is hard; skin is not.
+TEST(SuggestedModes, ABoundaryIsHardWhereItsHigherSideIsBone) {
+  for (const double value : {-50.0, 60.0, 700.0, 1200.0}) {
+    const Suggestion found = suggest(scan_of(layers_of({testdata::air_hu, value, value, value}), 5));
+    ASSERT_EQ(found.boundaries.size(), 1U) << value;
+    EXPECT_EQ(found.scene.modes[found.boundaries[0].mode].strength_n.maximum(),
+              value > 150 ? defaults::bone_strength_n : defaults::skin_strength_n)
+        << value;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::modes

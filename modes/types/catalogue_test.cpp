@@ -233,5 +233,53 @@ TEST(Catalogue, AStrengthWithoutADatumIsOfTheDatumOfItsMode) {
   }
 }
 
+/// What a mode's constraint is turned by is among the fields that it reads. No session begins where a mode is felt that
+/// stands at its own place or has no direction.
+TEST(Catalogue, AModeReadsWhatItIsDirectedBy) {
+  for (const ModeType* const type : mode_types()) {
+    for (const bool of_structure : {false, true}) {
+      Mode mode;
+      mode.type = std::string(type->name);
+      if (of_structure) mode.structure = "liver";
+      const Footprint footprint = type->footprint(mode);
+      const io::FieldSet wanted = footprint.axis == Axis::structure  ? io::FieldSet::distance
+                                  : footprint.axis == Axis::gradient ? io::FieldSet::gradient
+                                  : footprint.axis == Axis::vector   ? io::FieldSet::vector
+                                  : footprint.axis == Axis::tube     ? io::FieldSet::tube
+                                                                     : io::FieldSet::none;
+      EXPECT_TRUE(io::contains(type->reads(mode), wanted)) << type->name;
+      EXPECT_EQ(type->finds_places, footprint.axis != Axis::own && footprint.axis != Axis::none) << type->name;
+    }
+  }
+}
+
+/// At a structure's edge leaving is entering seen from the other side: as strong as far on the way, the other way
+/// round.
+TEST(Catalogue, surface_that_is_left_mirrors_the_one_that_is_entered) {
+  const auto strength = [](Side side, double inside_mm) {
+    Mode mode = mode_of("surface", Datum::value, 100, 2);
+    mode.structure = "liver";
+    mode.side = side;
+    Scene scene = scene_of({mode});
+    scene.structures = {{.name = "liver", .file = "a.dcm", .segment = "1"}};
+    scene.subdivision.most_halts = 0;  // each would place them anew
+    io::Sample sample = tissue;
+    sample.distance[0] = {.mm = inside_mm, .gradient = {0, 0.6, 0.8}};
+    const Uniform source(sample);
+    Hand hand(scene, source);
+    hand.move_to({1, 2, 3});
+    double sum = 0;
+    for (const solver::Primitive& primitive : hand.result.primitives) sum += primitive.strength;
+    return sum;
+  };
+  int felt = 0;
+  for (const double way_mm : {-1.5, -1.2, -0.5, -0.05, 0.0, 0.05, 0.3, 0.6, 1.0, 1.05, 1.5}) {
+    const double entered = strength(Side::entering, way_mm);
+    EXPECT_NEAR(strength(Side::leaving, -way_mm), entered, 1e-12) << way_mm;
+    felt += entered > 0 ? 1 : 0;
+  }
+  EXPECT_GE(felt, 5);
+}
+
 }  // namespace
 }  // namespace palpate::modes

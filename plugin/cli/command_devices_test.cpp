@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -103,6 +104,8 @@ TEST_F(CommandDevices, TheTextTellsWhatTheJsonDoes) {
     ++listed;
   }
   EXPECT_GE(listed, 3);
+  const auto advice = json.at("realtime").at("advice").get<std::string>();
+  EXPECT_THAT(text, HasSubstr("\nReal time: " + (advice.empty() ? "allowed" : advice) + "\n"));
 }
 
 /// What `palpate devices --check` says and writes of a stylus whose time is its own.
@@ -280,6 +283,19 @@ TEST_F(CommandDevices, TheSimulatedOneIsPushedWhereItSays) {
   const Outcome outcome = palpate("devices --check simulated --yes");
   EXPECT_EQ(outcome.exit, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("Axis y: as it should be."));
+}
+
+/// Its time is its own: three pushes of a second each are over much sooner.
+TEST(CheckDevice, TheSimulatedOneNeedsNoClock) {
+  DeviceCheck wanted;
+  wanted.stylus.device = "simulated";
+  wanted.yes = true;
+  ::testing::internal::CaptureStdout();
+  const auto begin = std::chrono::steady_clock::now();
+  check_device(wanted);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(), HasSubstr("Axis z: as it should be."));
+  EXPECT_LT(took.count(), 2.5);
 }
 
 TEST_F(CommandDevices, RefusesWhatCannotBeChecked) {

@@ -335,5 +335,48 @@ TEST(CommandInfo, SeriesThatCannotBeDecodedIsNotTheFirstChoice) {
   }
 }
 
+/// One voxel that is no padding has a value that is told.
+TEST(CommandInfo, TellsTheValueOfOneVoxelAlone) {
+  const fs::path folder = fresh_path("one_voxel");
+  fs::create_directories(folder);
+  io::internal::write_stack(folder, 5, [](int k, io::internal::TestImage& image) {
+    image.value = [k](int i, int j) { return k == 2 && i == 3 && j == 1 ? 9 : 7; };
+    image.edit = [](DcmDataset& d) {
+      io::internal::put(d, DCM_PixelPaddingValue, 7);
+      io::internal::put(d, DCM_RescaleSlope, "1");
+      io::internal::put(d, DCM_RescaleIntercept, "-1000");
+    };
+  });
+  EXPECT_THAT(palpate("info " + folder.string(), false).output, HasSubstr("\n   values -991 to -991, mean -991"));
+}
+
+/// Every frame has its line, the last included, and what is found in decoding is told, too.
+TEST(CommandInfo, NamesEveryFrameAndTheImagesThatCannotBeRead) {
+  const fs::path folder = fresh_path("frames_and_failures");
+  for (int phase = 0; phase < 3; ++phase) {
+    testdata::write_series(
+        testdata::scan(testdata::make_sphere(5 - phase), testdata::make_geometry({.size = glm::ivec3(10)})),
+        folder / std::to_string(phase), {.study = "beating", .trigger_time_ms = 300.0 * phase});
+  }
+  const Json s = Json::parse(palpate("info --json " + folder.string(), false).output).at("series").at(0);
+  const std::string text = palpate("info " + folder.string(), false).output;
+  ASSERT_EQ(s.at("frames").size(), 3U);
+  for (const Json& frame : s.at("frames")) {
+    EXPECT_THAT(text, HasSubstr(fmt::format("\n   frame {}: {}\n", frame.at("index").get<int>(),
+                                            frame.at("label").get<std::string>())));
+  }
+  const fs::path broken = fresh_path("one_broken");
+  fs::create_directories(broken);
+  io::internal::write_stack(broken, 12, [](int k, io::internal::TestImage& image) {
+    if (k != 11) return;
+    image.syntax = EXS_RLELossless;
+    image.edit = [](DcmDataset& d) {
+      io::internal::encapsulate(d, EXS_RLELossless, {std::vector<Uint8>(100, 7)}, 1U << 20);
+    };
+  });
+  EXPECT_THAT(palpate("info " + broken.string(), false).output,
+              ::testing::ContainsRegex("\n   note: [^\n]*" + io::internal::numbered("s", 11)));
+}
+
 }  // namespace
 }  // namespace palpate::plugin

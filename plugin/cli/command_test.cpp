@@ -234,6 +234,28 @@ TEST(Command, SolveAnswersEveryLineOfItsInput) {
   EXPECT_EQ(palpate("solve --solver magic < /dev/null").exit, 2);
 }
 
+/// At the end it is said how many lines were not solved, and of how many.
+TEST(Command, SolveCountsItsLines) {
+  const auto input = fresh_path("bad_balances.jsonl");
+  for (int lines = 1; lines <= 3; ++lines) {
+    std::ofstream(input, std::ios::app) << "{}\n";
+    const Outcome outcome = palpate("solve < " + input.string());
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_THAT(outcome.output, HasSubstr(std::to_string(lines) + " of " + std::to_string(lines) + " line" +
+                                          (lines == 1 ? "" : "s") + " could not be solved"));
+  }
+}
+
+/// A port has 16 bits: another number is wrong usage, before anything is read.
+TEST(Command, ServeRefusesWhatIsNoPort) {
+  for (const char* const port : {"65536", "100000", "131070", "-1"}) {
+    EXPECT_EQ(palpate("serve /no/such/scan --port=" + std::string(port)).exit, 2) << port;
+  }
+  for (const char* const port : {"0", "1024", "65535"}) {
+    EXPECT_EQ(palpate("serve /no/such/scan --port=" + std::string(port)).exit, 1) << port;
+  }
+}
+
 TEST(Command, NothingIsOverwritten) {
   const auto out = fresh_path("kept");
   std::filesystem::create_directory(out);

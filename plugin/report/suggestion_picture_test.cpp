@@ -3,10 +3,12 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -115,6 +117,7 @@ class Pictured {
         cairo_image_surface_get_data(image_.get()) + row * cairo_image_surface_get_stride(image_.get()) + 4 * column;
     return {bgr[2], bgr[1], bgr[0]};
   }
+  int columns() const { return cairo_image_surface_get_width(image_.get()); }
   bool is_dark(int column, int row) const { return at(column, row)[0] < 110; }
   /// Dark pixels in a part of the picture.
   int dark_in(int left, int right, int top, int bottom) const {
@@ -175,6 +178,73 @@ TEST(SuggestionPicture, ShowsBetweenWhichValuesTheBoundariesLie) {
   EXPECT_EQ(picture.at(30, first + 7), (std::array{255, 0, 0}));
   EXPECT_EQ(picture.at(30, first + 22 + 7), (std::array{0, 0, 255}));
   EXPECT_EQ(picture.at(30, first + 18), (std::array{255, 255, 255}));
+}
+
+modes::Suggestion suggestion_of(const std::vector<double>& typical) {
+  modes::Suggestion suggestion;
+  suggestion.scene = modes::testing::scene_of({modes::testing::surface(modes::TransferFunction(0.0))});
+  suggestion.typical = typical;
+  suggestion.edges.values = {.low = 0, .high = 1000, .count = 192};
+  suggestion.edges.counts.assign(192 * 192, 0);
+  return suggestion;
+}
+
+/// Black is the darkest tissue; three quarters of white are 1.15 times as far from it as the brightest.
+TEST(SuggestionPicture, GraysAreTheValuesBetweenTheTissues) {
+  const auto file = testing::fresh_path("grays.png");
+  const std::vector<double> typical{-1000, 200};
+  for (const double value : {-700.0, 300.0, 900.0}) {
+    const auto volume = std::make_shared<const io::Volume>(
+        testdata::scan(testdata::make_sphere(6, value), testdata::make_geometry({.size = glm::ivec3(20)})));
+    std::filesystem::remove(file);
+    write_suggestion_png(suggestion_of(typical), volume, file);
+    const double wanted = 255 * 0.75 * std::min(1.0, (value - typical[0]) / (1.15 * (typical[1] - typical[0])));
+    EXPECT_NEAR(Pictured(file).at(16 + 260, 40 + 260)[0], wanted, 2) << value;
+  }
+}
+
+/// Numbers of similar tissues stand in two rows, those of unlike ones in one. Nothing is right of the histogram but a
+/// margin.
+TEST(SuggestionPicture, NumbersOfSimilarTissuesStandInTwoRows) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(6), testdata::make_geometry({.size = glm::ivec3(20)})));
+  const auto file = testing::fresh_path("numbers.png");
+  constexpr int left = 1190, below = 40 + 520;
+  for (const double second : {320.0, 360.0, 420.0, 700.0}) {
+    std::filesystem::remove(file);
+    write_suggestion_png(suggestion_of({300, second}), volume, file);
+    const Pictured picture(file);
+    const bool is_similar = 520 * (second - 300) / 1000 < 44;
+    EXPECT_GT(picture.dark_in(left + 130, left + 500, below + 5, below + 18), 0) << second;
+    EXPECT_EQ(picture.dark_in(left + 130, left + 500, below + 20, below + 32) > 0, is_similar) << second;
+    EXPECT_GE(picture.columns(), left + 520);
+    EXPECT_LE(picture.columns(), left + 520 + 40);
+  }
+}
+
+/// A dashed line at each end of a tissue, upright and level; none where a tissue has no end.
+TEST(SuggestionPicture, TissuesEndsAreLinesInTheHistogram) {
+  const auto volume = std::make_shared<const io::Volume>(
+      testdata::scan(testdata::make_sphere(6), testdata::make_geometry({.size = glm::ivec3(20)})));
+  modes::Suggestion suggestion = suggestion_of({100, 800});
+  suggestion.scene.tissues = {{"soft", 0, 350, 10, ""}, {"hard", 350, std::numeric_limits<double>::infinity(), 10, ""}};
+  const auto file = testing::fresh_path("ends.png");
+  write_suggestion_png(suggestion, volume, file);
+  const Pictured picture(file);
+  constexpr int left = 1190, top = 40, side = 520, end = side * 350 / 1000;
+  const auto not_white = [&](bool upright, int at) {
+    int count = 0;
+    for (int along = 30; along < side - 30; ++along) {
+      const auto color = upright ? picture.at(left + at, top + along) : picture.at(left + along, top + side - at);
+      count += color[0] < 220 ? 1 : 0;
+    }
+    return count;
+  };
+  for (const bool upright : {true, false}) {
+    EXPECT_GT(not_white(upright, end), 150);
+    EXPECT_LT(not_white(upright, end), side - 80) << "dashed";
+    EXPECT_LT(not_white(upright, end + 60), 20);
+  }
 }
 
 }  // namespace
