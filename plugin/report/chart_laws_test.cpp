@@ -13,7 +13,7 @@ namespace palpate::plugin {
 namespace {
 
 /// Red, green and blue of a pixel.
-std::array<int, 3> pixel_at(const Canvas& canvas, int column, int row) {
+std::array<int, 3> pixel_in(const Canvas& canvas, int column, int row) {
   const auto all = canvas.pixels();
   const auto at = 4 * (static_cast<std::size_t>(row) * canvas.width() + column);
   return {all[at + 2], all[at + 1], all[at]};
@@ -28,7 +28,7 @@ Columns dark_columns(const Canvas& canvas, int left, int right, int top, int bot
   Columns found;
   for (int row = top; row < bottom; ++row) {
     for (int column = left; column < right; ++column) {
-      if (pixel_at(canvas, column, row)[1] > 150) continue;
+      if (pixel_in(canvas, column, row)[1] > 150) continue;
       found = {std::min(found.first, column), std::max(found.last, column)};
     }
   }
@@ -75,8 +75,8 @@ TEST(ChartLaws, TheFrameIsAroundTheAxes) {
         // A frame's line is between two pixels, and a line of the y axis is lighter than both.
         const auto is_dark = [&](double x, double y, bool upright) {
           const int column = static_cast<int>(x), row = static_cast<int>(y);
-          const int beside = upright ? pixel_at(canvas, column - 1, row)[0] : pixel_at(canvas, column, row - 1)[0];
-          return std::min(beside, pixel_at(canvas, column, row)[0]) < 180;
+          const int beside = upright ? pixel_in(canvas, column - 1, row)[0] : pixel_in(canvas, column, row - 1)[0];
+          return std::min(beside, pixel_in(canvas, column, row)[0]) < 180;
         };
         const double right = width - style.right, bottom = height - style.bottom;
         for (const double part : {0.13, 0.57, 0.91}) {
@@ -113,7 +113,7 @@ TEST(ChartLaws, AMarksLineIsDashed) {
       for (int along = begin; along < end; ++along) {
         bool is_red = false;
         for (const int at : {line - 1, line, line + 1}) {
-          const auto [red, green, blue] = upright ? pixel_at(canvas, at, along) : pixel_at(canvas, along, at);
+          const auto [red, green, blue] = upright ? pixel_in(canvas, at, along) : pixel_in(canvas, along, at);
           is_red = is_red || (red > 200 && green < 170 && blue < 170);
         }
         dashes += is_red && !was_red ? 1 : 0;
@@ -138,7 +138,7 @@ TEST(ChartLaws, ALegendsDiscStandsWhereALineWould) {
       Columns found;
       for (int row = 0; row < 34; ++row) {
         for (int column = 0; column < canvas.width(); ++column) {
-          const auto [red, green, blue] = pixel_at(canvas, column, row);
+          const auto [red, green, blue] = pixel_in(canvas, column, row);
           if (red < 200 || green > 100 || blue > 100) continue;
           found = {std::min(found.first, column), std::max(found.last, column)};
         }

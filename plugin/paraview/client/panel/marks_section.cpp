@@ -1,6 +1,7 @@
 #include "plugin/paraview/client/panel/marks_section.h"
 
 #include <QHBoxLayout>
+#include <QPointer>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -163,6 +164,8 @@ void MarksSection::fill(QTreeWidgetItem& item, const MarkRow& row) {
 void MarksSection::list() {
   if (std::exchange(listing_, true)) return;
   // An item of the list stays that of the same mark, and with it the choice and a name that is being typed.
+  const QPointer<QLineEdit> editor = list_->viewport()->findChild<QLineEdit*>();
+  const QString typed = editor ? editor->text() : QString();
   const Marks now = model_.marks();
   const auto former = former_rows(listed_of_ == model_.scan() ? listed_ : Marks(), now);
   std::vector<std::size_t> chosen;  // marks are the first rows
@@ -182,6 +185,7 @@ void MarksSection::list() {
     if (!former[n]) list_->insertTopLevelItem(at, new QTreeWidgetItem);
     fill(*list_->topLevelItem(at), rows[n]);
   }
+  if (editor && editor->text() != typed) editor->setText(typed);  // Qt may have brought back the name
   listed_ = now;
   listed_of_ = model_.scan();
   listing_ = false;

@@ -188,7 +188,7 @@ void a_chosen_path_stays_chosen() {
   editor->setText("along the rib");
   find<QPushButton>("palpateMark").click();  // as the stylus' own button: the focus stays
   has_rows(7, "the button marks");
-  expect(editor->text() == "along the rib", "what was typed stays");
+  expect(editor->text() == "along the rib", "what was typed stays, and not: " + editor->text().toStdString());
   QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
   QCoreApplication::sendEvent(editor, &enter);
   wait_for(
