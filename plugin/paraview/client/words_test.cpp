@@ -50,6 +50,13 @@ TEST(German, KeepsTheValuesOfAMessage) {
             "gew\xC3\xA4hlt. W\xC3\xA4hlen Sie dort MR. Choose, "
             "dann dr\xC3\xBC"
             "cken Sie F\xC3\xBChlen");
+  const Text recording = say("recording-was-read-for-another-frame", "a.h5");
+  EXPECT_EQ(
+      std::string(recording),
+      "a.h5 was not opened: another frame was chosen while it was read. Open it again to see what was recorded on "
+      "this frame.");
+  EXPECT_TRUE(is_german(recording) && words(recording).startsWith(QLatin1String("a.h5 ")));
+  EXPECT_TRUE(is_german(say("recording-is-of-another-frame", "a.h5")));
   // What the catalogue does not have stays as it is.
   const Text unknown = say("boundary-is-another-one", "Skin");
   EXPECT_EQ(words(unknown).toStdString(), std::string(unknown));

@@ -1503,14 +1503,6 @@
         <translation>%1 s sind ausgelassen: Sie wurden an einer anderen Aufnahme aufgezeichnet.</translation>
     </message>
     <message>
-        <source>%1 was not opened: another frame was chosen while it was read. Open it again to see what was recorded on this frame.</source>
-        <translation>%1 wurde nicht geöffnet: Beim Lesen wurde ein anderes Bild der Folge gewählt. Erneut öffnen, um zu sehen, was an diesem Bild aufgezeichnet wurde.</translation>
-    </message>
-    <message>
-        <source>%1 was closed: another frame is shown. Open it again to see what was recorded on this frame.</source>
-        <translation>%1 wurde geschlossen: Ein anderes Bild der Folge wird gezeigt. Erneut öffnen, um zu sehen, was an diesem Bild aufgezeichnet wurde.</translation>
-    </message>
-    <message>
         <source>%1 of %2 s</source>
         <translation>%1 von %2 s</translation>
     </message>
@@ -2614,6 +2606,14 @@ ID %2, Studie vom %3</translation>
 </context>
 <context>
     <name>Messages</name>
+    <message>
+        <source>{} was not opened: another frame was chosen while it was read. Open it again to see what was recorded on this frame.</source>
+        <translation>{} wurde nicht geöffnet: Beim Lesen wurde ein anderes Bild der Folge gewählt. Erneut öffnen, um zu sehen, was an diesem Bild aufgezeichnet wurde.</translation>
+    </message>
+    <message>
+        <source>{} was closed: another frame is shown. Open it again to see what was recorded on this frame.</source>
+        <translation>{} wurde geschlossen: Ein anderes Bild der Folge wird gezeigt. Erneut öffnen, um zu sehen, was an diesem Bild aufgezeichnet wurde.</translation>
+    </message>
     <message>
         <source>The stylus reported an impossible pose; home it again, then clear the fault and turn the force on.</source>
         <translation>Der Stift meldete eine unmögliche Lage: referenzieren Sie ihn neu, dann quittieren Sie die Störung und schalten die Kraft ein.</translation>

@@ -203,10 +203,7 @@ void RecordingsSection::take(const std::shared_ptr<const Opened>& opened, const 
   } else if (!scan) {
     tell(words(say("there-is-no-scan-to-see")), true);
   } else if (opened->scan.lock() != scan) {
-    tell(tr("%1 was not opened: another frame was chosen while it was read. Open it again to see what was recorded on "
-            "this frame.")
-             .arg(opened->name),
-         true);
+    tell(words(say("recording-was-read-for-another-frame", opened->name.toStdString())), true);
   } else {
     second ? set_second(*opened) : set_first(*opened);
   }
@@ -218,7 +215,7 @@ void RecordingsSection::follow_frame() {
   if (!first_.session || !scan || first_.scan.lock() == scan) return;
   const QString name = first_.name;
   set_first({});
-  tell(tr("%1 was closed: another frame is shown. Open it again to see what was recorded on this frame.").arg(name));
+  tell(words(say("recording-is-of-another-frame", name.toStdString())));
 }
 
 void RecordingsSection::set_first(Opened opened) {

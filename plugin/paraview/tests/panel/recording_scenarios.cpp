@@ -126,7 +126,8 @@ void a_recording_is_of_its_frame() {
   wait_for(
       "the second frame is felt", [] { return label("palpateFelt").contains("2 of 2."); }, 20);
   expect(!slider.isVisible() && label("palpateRecordingName").isEmpty(), "the recording is closed");
-  expect(label("palpateRecordingMessage").startsWith("first-frame.h5 was closed: another frame is shown."),
+  expect(label("palpateRecordingMessage") ==
+             "first-frame.h5 was closed: another frame is shown. Open it again to see what was recorded on this frame.",
          "and that is said: " + label("palpateRecordingMessage").toStdString());
   save_screen("recording-closed");
 }
