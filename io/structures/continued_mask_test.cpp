@@ -12,22 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "io/structures/mask_source.h"
+#include "io/structures/testing/one_mask.h"
 
 namespace palpate::io {
 namespace {
 
 using Mm = std::function<double(const Vec3&)>;
 
-/// A file of one mask.
-class OneMask final : public MaskSource {
- public:
-  explicit OneMask(Mask mask) : mask_(std::move(mask)) {}
-
- private:
-  Mask mask_of(int /*number*/) const override { return mask_; }
-  Mask mask_;
-};
+using testing::OneMask;
 
 /// `mm`: the depth in a body.
 Mask mask_of(const Geometry& geometry, const Mm& mm, Mask::Fractions fractions) {

@@ -14,6 +14,7 @@
 
 #include "io/fields/filtered.h"
 #include "io/structures/mask.h"
+#include "io/structures/testing/one_mask.h"
 #include "solver/text/testing/sanitized.h"
 #include "testdata/scan.h"
 
@@ -103,20 +104,10 @@ std::vector<Spoilt> spoilt_ways(const Organ& organ, std::mt19937& random) {
 }
 
 std::shared_ptr<const DistanceField> outlined(const Geometry& geometry, const SignedMm& mm) {
-  Mask mask;
-  mask.geometry = geometry;
-  mask.size = geometry.dimensions;
-  for (int k = 0; k < mask.size.z; ++k) {
-    for (int j = 0; j < mask.size.y; ++j) {
-      for (int i = 0; i < mask.size.x; ++i) {
-        mask.occupancy.push_back(mm(geometry.to_patient({i, j, k})) > 0 ? Mask::full : 0);
-      }
-    }
-  }
   DistanceOptions options;
   options.reach_mm = doubt_within_mm;
   options.scan = &geometry;
-  return distance_of(mask, options);
+  return distance_of(testing::mask_of(geometry, mm), options);
 }
 
 struct SpoiltGrid {

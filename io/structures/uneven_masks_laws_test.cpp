@@ -14,10 +14,13 @@
 #include "io/structures/distance_bounds.h"
 #include "io/structures/fraction_edges.h"
 #include "io/structures/label_planes.h"
-#include "io/structures/mask_source.h"
+#include "io/structures/testing/one_mask.h"
 
 namespace palpate::io {
 namespace {
+
+using testing::mask_of;
+using testing::OneMask;
 
 /// Slices at these heights around the z axis.
 Geometry slices_at(int columns, double spacing, const std::vector<double>& heights) {
@@ -37,21 +40,6 @@ std::vector<double> heights_of(const std::vector<std::pair<int, double>>& runs) 
     for (int n = 0; n < count; ++n) heights.push_back(heights.back() + step);
   }
   return heights;
-}
-
-template <typename Depth>
-Mask mask_of(const Geometry& geometry, const Depth& depth) {
-  Mask mask;
-  mask.geometry = geometry;
-  mask.size = geometry.dimensions;
-  for (int k = 0; k < mask.size.z; ++k) {
-    for (int j = 0; j < mask.size.y; ++j) {
-      for (int i = 0; i < mask.size.x; ++i) {
-        mask.occupancy.push_back(depth(geometry.to_patient({i, j, k})) > 0 ? Mask::full : 0);
-      }
-    }
-  }
-  return mask;
 }
 
 // Bounds are bounds: a body with these voxels is never nearer or farther. A plane is such a body.
@@ -120,16 +108,6 @@ TEST(UnevenMasksLaws, AShareOfASlabIsAPartOfItsOwnThickness) {
     }
   }
 }
-
-/// A file of one mask.
-class OneMask final : public MaskSource {
- public:
-  explicit OneMask(Mask mask) : mask_(std::move(mask)) {}
-
- private:
-  Mask mask_of(int /*number*/) const override { return mask_; }
-  Mask mask_;
-};
 
 // Where the scan ends the structure goes on as it ends, also half a slice beyond, however far apart the last slices
 // are.
