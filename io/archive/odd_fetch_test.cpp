@@ -161,7 +161,7 @@ TEST(OddFetch, ThatFailsMuchIsQuotedInPart) {
   EXPECT_LE(words.size(), 204U);
   EXPECT_GT(words.size(), 180U);
   std::string wanted = "1.2.3.10";
-  for (int n = 11; n < 40; ++n) wanted += n == 12 ? " 1?" : " 1.2.3." + std::to_string(n);
+  for (int n = 11; n < 40; ++n) wanted += n == 12 || n == 13 ? " 1?" : " 1.2.3." + std::to_string(n);
   ASSERT_TRUE(words.ends_with(" ...")) << words;
   const std::string named = words.substr(0, words.size() - 4);
   EXPECT_TRUE(wanted.starts_with(named + " ")) << words;
@@ -169,7 +169,7 @@ TEST(OddFetch, ThatFailsMuchIsQuotedInPart) {
 
 /// What came is kept where the archive says how many it could not send, and not where it says nothing of it.
 TEST(OddFetch, ThatGivesUpMidwayHasSentWhatItHas) {
-  EXPECT_THAT(told_of_one_image("gives-up-midway"), HasSubstr("2 of 3 images of study 1.2.3"));
+  EXPECT_THAT(told_of_one_image("gives-up-midway"), HasSubstr("1 of 2 images of study 1.2.3"));
   EXPECT_TRUE(says(OddArchive("stops-midway").refused_fetch(), "archive {} did not send {}: {}(status A702)"));
 }
 

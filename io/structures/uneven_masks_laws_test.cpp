@@ -265,5 +265,31 @@ TEST(UnevenMasksLaws, ABodyEndsBetweenItsSlicesAndTheScansNextOnes) {
   }
 }
 
+// The same of one slice of unsaid thickness where the scan's steps are no multiples of one: its body ends halfway to
+// the slices beside it there, whatever the steps elsewhere.
+TEST(UnevenMasksLaws, OneSliceOfUnevenStepsEndsHalfwayToItsNeighbors) {
+  const std::vector<double> heights = heights_of({{5, 2}, {5, 5.3}});
+  const Geometry scan = slices_at(14, 1, heights);
+  for (const std::size_t k : {2U, 8U}) {
+    Mask mask;
+    mask.geometry = scan;
+    mask.geometry.slice_positions = {scan.slice_positions[k]};
+    mask.geometry.dimensions.z = mask.size.z = 1;
+    mask.geometry.step = {0, 0, 1};
+    mask.has_no_thickness = true;
+    mask.low = {2, 2, 0};
+    mask.size.x = mask.size.y = 10;
+    mask.occupancy.assign(100, Mask::full);
+    DistanceOptions options;
+    options.scan = &scan;
+    const auto field = OneMask(mask).distance(1, options);
+    const double half = (heights[k + 1] - heights[k]) / 2;
+    for (const double side : {-1.0, 1.0}) {
+      EXPECT_GT(field->sample({0, 0, heights[k] + side * 0.75 * half}).mm, 0) << k;
+      EXPECT_LT(field->sample({0, 0, heights[k] + side * 1.25 * half}).mm, 0) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io

@@ -220,13 +220,14 @@ class Serving {
     if (behavior_ == "fails-much") {
       send("1.2.3.4", study, "1.2.3.1");
       std::string failed = "1.2.3.10";
-      for (int n = 11; n < 40; ++n) failed += n == 12 ? "\\1\x80" : "\\1.2.3." + std::to_string(n);
+      for (int n = 11; n < 40; ++n)
+        failed += n == 12 ? "\\1\x80" : n == 13 ? "\\1\x7F" : "\\1.2.3." + std::to_string(n);
       return respond(socket_, request, 0xB000, field(0x00080058, "UI", even(failed)), 1, 30);
     }
     if (behavior_ == "out-of-resources") return respond(socket_, request, 0xA702);
     if (behavior_ == "gives-up-midway" || behavior_ == "stops-midway") {
       send("1.2.3.4", study, "1.2.3.1");
-      return respond(socket_, request, 0xA702, {}, 1, behavior_ == "gives-up-midway" ? 2 : 0);
+      return respond(socket_, request, 0xA702, {}, 1, behavior_ == "gives-up-midway" ? 1 : 0);
     }
     send("1.2.3.4", study, "1.2.3.1");
     send("1.2.3.4", study, "1.2.3.1");  // the same once more

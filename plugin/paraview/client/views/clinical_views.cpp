@@ -401,6 +401,7 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
     const int mode = vtkSMPropertyHelper(shown->getProxy(), "SliceMode").GetAsInt();
     const auto* const place = std::ranges::find_if(
         places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions)) == mode; });
+    if (place == std::end(places)) continue;  // a state edited by hand
     const bool taken = std::ranges::any_of(views_, [&](const OpenView& other) { return other.kind == place->kind; });
     if (taken) continue;
     // The state's own: one of that name may be there from before.
