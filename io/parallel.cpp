@@ -35,7 +35,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
     }
   };
 
-  static const unsigned cores = std::max(1U, std::thread::hardware_concurrency());  // which reads a file each time
+  static const unsigned cores = std::max(1U, std::thread::hardware_concurrency());  // static: the call reads a file
   const auto wanted = static_cast<std::size_t>(threads > 0 ? threads : static_cast<int>(cores));
   {
     std::vector<std::jthread> helpers;

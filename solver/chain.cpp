@@ -36,7 +36,7 @@ Solution Chain::solve_in_order(const Balance& balance, std::span<Vec3> forces) c
     }
   }
   if (solution.outcome == Outcome::unsuitable && solution.error_bound > 0 && solution.error_bound <= unfelt) {
-    // All after this one were left out because it solves the configuration; rounding has loosened the bound.
+    // The later solvers were left out because this one solves the configuration. Rounding has loosened its bound.
     solution.outcome = Outcome::capped;
   }
   return solution;

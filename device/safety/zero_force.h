@@ -13,7 +13,7 @@ namespace palpate::device {
 double pause_after(double seconds) noexcept;
 
 /// Repeats `try_once` with these pauses until it succeeds. Returns false as soon as `gives_up(s since the first
-/// attempt)` does not want to go on; there is always one attempt.
+/// attempt)` returns true. There is always one attempt.
 bool keep_trying(const std::function<bool()>& try_once, const std::function<bool(double)>& gives_up,
                  const DriverClock& clock = {});
 

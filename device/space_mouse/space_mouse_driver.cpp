@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint8_t motion_report = 1;
 constexpr std::uint8_t rotation_report = 2;
 constexpr std::uint8_t button_report = 3;
-constexpr double report_patience = 0.15;  // s: a puck that is held tells it every 8 to 16 ms
-constexpr double longest_step = 0.05;     // s: a thread held up for longer makes no jump of the pose
+constexpr double report_patience = 0.15;  // s: a held puck sends a report every 8 to 16 ms
+constexpr double longest_step = 0.05;     // s: limits the jump of the pose after a longer delay of the thread
 
 double word(std::span<const std::uint8_t> bytes, std::size_t index) {
   return static_cast<std::int16_t>(bytes[2 * index] | bytes[2 * index + 1] << 8);

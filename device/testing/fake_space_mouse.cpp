@@ -5,10 +5,10 @@
 namespace palpate::device {
 
 HidIdentity FakeSpaceMouse::identity() const {
-  // A multi-axis controller. Report 1: X, Y, Z, on newer pucks with Rx, Ry, Rz, which else are report 2.
+  // A multi-axis controller. Report 1: X, Y, Z, and on newer pucks Rx, Ry, Rz. On others these are report 2.
   std::vector<std::uint8_t> descriptor{0x05, 0x01, 0x09, 0x08, 0xa1, 0x01, 0x16, 0xa2, 0xfe, 0x26, 0x5e,
                                        0x01, 0x75, 0x10, 0x85, 0x01, 0x09, 0x30, 0x09, 0x31, 0x09, 0x32};
-  descriptor.reserve(96);  // GCC 14 sees an overflow where it grows
+  descriptor.reserve(96);  // without it GCC 14 warns of an overflow
   const auto append = [&](std::initializer_list<std::uint8_t> items) {
     descriptor.insert(descriptor.end(), items.begin(), items.end());
   };

@@ -103,7 +103,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
   void hear() {
     if (shared_.stalls) return wait();
-    // Its messages are text: others end the session.
+    // The client's messages are text. Any other message ends the session.
     socket_.async_read(buffer_, [self = shared_from_this()](auto error, std::size_t) {
       if (!error && self->socket_.got_text()) self->answer();
     });
@@ -120,7 +120,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     }
     said.empty() ? hear() : say(said);
   }
-  /// Until it goes on.
+  /// Waits until the service no longer stalls.
   void wait() {
     timer_.expires_after(std::chrono::milliseconds(5));
     timer_.async_wait([self = shared_from_this()](auto error) {
@@ -139,7 +139,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   int number_ = 0;
 };
 
-/// One who hears the service's events: nothing is heard from it.
+/// A client that receives the service's events. It sends nothing.
 struct EventHearer {
   explicit EventHearer(tcp::socket socket) : stream(std::move(socket)) {}
   websocket::stream<beast::tcp_stream> stream;
@@ -159,7 +159,7 @@ class HaplyServer::Impl {
     accept();
     accept_hearer();
     thread_ = std::thread([this] {
-      make_thread_realtime(65);  // above its clients: a real service is not silent because the machine is busy
+      make_thread_realtime(65);  // above the clients' priority: like a real service, it answers also on a busy machine
       context_.run();
     });
   }

@@ -41,7 +41,7 @@ class LinkBenchDriver final : public Driver {
   double now() noexcept override { return bench_.time; }
   void take(double timeout) noexcept override {
     ++bench_.takes;
-    if (bench_.lost) return;  // as a link does that is gone: at once
+    if (bench_.lost) return;  // a lost link returns at once
     bench_.time = bench_.time + timeout;
     status_.state = bench_.state;
     status_.fault = bench_.fault;
@@ -94,7 +94,7 @@ inline std::unique_ptr<LinkStylus> unthreaded(LinkBench& bench, LinkStylusOption
   return stylus;
 }
 
-/// Requests an upward force in each exchange of a millisecond.
+/// Requests an upward force in each exchange. An exchange takes a millisecond.
 inline void push(LinkBench& bench, LinkStylus& stylus, double newtons, double seconds) {
   const double end = bench.time + seconds;
   while (bench.time < end) {

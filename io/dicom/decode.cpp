@@ -25,7 +25,7 @@ struct Syntax {
 };
 
 constexpr const char* deflated_frames = "1.2.840.10008.1.2.8.1";  // PS3.6 annex A; DCMTK 3.6.7 does not know it
-constexpr std::uint64_t most_pixels_deflated = 1032;              // a byte, zlib's documented limit
+constexpr std::uint64_t most_pixels_deflated = 1032;              // per byte: zlib's documented limit
 
 constexpr std::array syntaxes{Syntax{UID_JPEGProcess1TransferSyntax, decode_jpeg, 256},
                               Syntax{UID_JPEGProcess2_4TransferSyntax, decode_jpeg, 256},
@@ -91,7 +91,7 @@ Text why_not_decoded(const std::string& transfer_syntax) {
 
 void check_inflation(std::uint64_t bytes_out, std::uint64_t bytes_in) {
   constexpr std::uint64_t any = std::uint64_t{1} << 28, most = std::uint64_t{1} << 33;
-  constexpr std::uint64_t most_times = 50;  // scans come to 2 to 10 times
+  constexpr std::uint64_t most_times = 50;  // scans inflate to 2 to 10 times their size
   if (bytes_out > any && (bytes_out > most || bytes_out / most_times > bytes_in)) {
     throw DicomError(say("inflates-to-too-much", bytes_in, bytes_out >> 20U));
   }
@@ -101,7 +101,7 @@ void check_density(const std::string& transfer_syntax, const PixelFormat& format
                    std::uint64_t bytes) {
   const Syntax* syntax = find_syntax(transfer_syntax);
   const std::uint64_t pixels_per_byte = syntax != nullptr ? syntax->most_pixels_per_byte : most_pixels_deflated;
-  constexpr std::uint64_t small = 1U << 18;  // pixels that any file may claim: an empty slice
+  constexpr std::uint64_t small = 1U << 18;  // pixels that a file of any size may have: an empty slice is small
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(format.columns) * static_cast<std::uint64_t>(format.rows) * frames;
   if (pixels > small && pixels / pixels_per_byte > bytes) {

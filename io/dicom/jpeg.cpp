@@ -15,7 +15,7 @@
 namespace palpate::io::internal {
 namespace {
 
-// IJG's decoders carry on over damage, filling with gray, and only say so; here that is an error.
+// If data are damaged, IJG's decoders fill with gray and only print a warning. Here damage is an error.
 template <typename Decompressor>
 class StrictDecompressor final : public Decompressor {
  public:
@@ -30,7 +30,7 @@ class StrictDecompressor final : public Decompressor {
 };
 
 // A sequential scan codes all 64 frequencies (ISO 10918-1 B.2.3: Ss = 0, Se = 63, Ah = Al = 0), whatever its header
-// says: decoders go on after a word about it, which here would be an error. Returns whether there was anything to mend.
+// says: decoders only warn, but here a warning is an error. Returns whether a header was corrected.
 bool mend_scan_headers(std::vector<Uint8>& bytes) {
   bool mended = false;
   bool sequential = false;
@@ -58,7 +58,7 @@ template <typename Decompressor>
 Text decompress(std::span<const std::byte> bytes, std::span<std::byte> samples) {
   const DJCodecParameter parameters(ECC_lossyYCbCr, EDC_never, EUC_never, EPC_default);
   StrictDecompressor<Decompressor> decompressor(parameters, OFFalse);
-  std::vector<Uint8> input(bytes.size() + bytes.size() % 2);  // the decoder wants to be able to write to it
+  std::vector<Uint8> input(bytes.size() + bytes.size() % 2);  // the decoder needs writable input
   std::transform(bytes.begin(), bytes.end(), input.begin(), [](std::byte b) { return std::to_integer<Uint8>(b); });
   const bool mended = mend_scan_headers(input);
   OFCondition result = decompressor.init();
@@ -94,7 +94,7 @@ std::optional<JpegFrame> jpeg_frame(std::span<const std::byte> bytes) {
 
 void check_huffman_tables(std::span<const std::byte> bytes, std::size_t most_bits) {
   const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
-  constexpr std::size_t counts = 16;  // of codes of 1 to 16 bits
+  constexpr std::size_t counts = 16;  // bytes with the number of codes of each length, 1 to 16 bits
   std::size_t at = 2;
   while (at + 4 <= bytes.size()) {
     const std::size_t marker = byte(at + 1);

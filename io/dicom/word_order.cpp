@@ -24,7 +24,7 @@ std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t n, bool as_w
 struct Doubts {
   std::uint64_t outside = 0;  ///< numbers with bits that are not stored
   double roughness = 0;       ///< differences of neighbors
-  double size = 0;            ///< of the numbers: counts and doses are small where all are alike
+  double size = 0;            ///< of the numbers, compared last: counts and doses are small
 
   auto all() const { return std::tuple(outside, roughness, size); }
 };

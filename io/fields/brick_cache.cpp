@@ -113,7 +113,7 @@ void BrickCache::move_to(const glm::dvec3& index) noexcept {
 }
 
 glm::dvec3 BrickCache::point() const noexcept {
-  // The three may come from two moves: good enough to guess by.
+  // The coordinates may come from two different moves. That is accurate enough for a prediction.
   return {point_[0].load(std::memory_order_relaxed), point_[1].load(std::memory_order_relaxed),
           point_[2].load(std::memory_order_relaxed)};
 }
@@ -201,12 +201,12 @@ void BrickCache::publish(std::size_t at, std::size_t brick, const std::vector<fl
   slot_of_[brick].store(static_cast<std::int32_t>(at), std::memory_order_release);
 }
 
-/// The first brick that is missing on the way that the point takes if it goes on as it does. False: none.
+/// Fills the first missing brick on the predicted path of the point, at constant velocity. False: none is missing.
 bool BrickCache::fill_along(const glm::dvec3& from, const glm::dvec3& velocity) {
   constexpr double seconds_ahead = 0.2;
   constexpr int steps = 20;
-  constexpr double margin = 3;          // voxels on each side of the way
-  constexpr double margin_ahead = 0.3;  // of the way to there: it may turn
+  constexpr double margin = 3;          // voxels on each side of the path
+  constexpr double margin_ahead = 0.3;  // of the path so far: the point may turn
   for (int n = 0; n <= steps; ++n) {
     const glm::dvec3 way = velocity * (seconds_ahead * n / steps);
     const glm::dvec3 reach(margin + margin_ahead * glm::length(way));
@@ -228,7 +228,7 @@ bool BrickCache::fill_along(const glm::dvec3& from, const glm::dvec3& velocity) 
   return false;
 }
 
-/// The nearest missing brick, as far out as half the memory reaches. False: none.
+/// Fills the nearest missing brick, within the radius that half the memory holds. False: none is missing.
 bool BrickCache::fill_around(const glm::dvec3& middle) {
   const int radius = std::max(1, static_cast<int>(0.5 * (std::cbrt(0.5 * static_cast<double>(capacity())) - 1)));
   const glm::ivec3 home(

@@ -71,7 +71,7 @@ std::vector<LowHighHistogram> low_high_histograms(const Volume& volume, const Gr
                                                   const Bins& values, std::span<const double> least_magnitudes,
                                                   const Progress& progress, int threads, const EdgeUse& use) {
   check(values, "values");
-  constexpr std::uint64_t enough_voxels = 1'000'000;  // far more than the bins can show
+  constexpr std::uint64_t enough_voxels = 1'000'000;  // far more than are needed to fill the bins
   const internal::EvenlySpread counted(volume.offset(0, 0, volume.geometry.dimensions.z), enough_voxels);
   const auto columns = static_cast<std::size_t>(values.count);
   std::vector<LowHighHistogram> all(least_magnitudes.size(), {values, std::vector<std::uint64_t>(columns * columns)});

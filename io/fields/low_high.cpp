@@ -10,11 +10,11 @@
 namespace palpate::io {
 namespace {
 
-constexpr double scales_reached = 2.0;     // farther away a step has little part in a derivative of Gaussian
+constexpr double scales_reached = 2.0;     // a step farther away adds little to a derivative of Gaussian
 constexpr double steps_a_voxel = 2.5;      // of the profile: finer than what trilinear values can show
-constexpr double least_of_steepest = 0.1;  // where a rise ends; or, earlier, where the next one begins:
-constexpr double lull = 0.3;               // it has been less than this,
-constexpr double rise_again = 0.2;         // and grows by that
+constexpr double least_of_steepest = 0.1;  // a rise ends here; or, earlier, where the next rise begins:
+constexpr double lull = 0.3;               // it was below this part,
+constexpr double rise_again = 0.2;         // and grows by this part
 constexpr int most_steps = 32;             // on each side
 
 /// Extent of a voxel along a direction, mm.
@@ -65,8 +65,8 @@ LowHigh low_high_at(const Volume& volume, const glm::ivec3& voxel, const Vec3& g
   const double extent = extent_along(g, uphill);
   const double reach = scales_reached * scale_mm + extent;
   const int steps = std::clamp(static_cast<int>(std::ceil(steps_a_voxel * reach / extent)), 1, most_steps);
-  // The grid is taken as even about the voxel: where slices are not, the profile bends a little and still crosses the
-  // edge.
+  // The grid is treated as evenly spaced near the voxel. If slices are uneven, the profile bends a little but still
+  // crosses the edge.
   const Vec3 middle = g.to_patient(voxel);
   const double step_mm = reach / steps;
   const Vec3 index_step = 0.5 * (g.to_index(middle + step_mm * uphill) - g.to_index(middle - step_mm * uphill));

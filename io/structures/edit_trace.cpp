@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::size_t most_of_a_piece = 400;
 constexpr double usual_move_mm = 2;   // standard deviation of what a trace moves: how much an uncertain point weighs
-constexpr double carried = 0.45;      // of the reach: a bump of a single point is one piece up to 0.47 of it
-constexpr double well_met_mm = 0.03;  // nearer than this the points need nothing more
+constexpr double carried = 0.45;      // of the reach: the bump of one point is connected up to 0.47 of the reach
+constexpr double well_met_mm = 0.03;  // points nearer than this need no further change
+constexpr double worst_sigma = 1e6;   // of `usual_move_mm`: such a point weighs nothing; its square is still a number
 constexpr double settled_mm = 0.2;    // farther than this the distance has to be measured once more
 constexpr int most_traced_rounds = 3;
 
@@ -49,7 +50,7 @@ class Fit {
       for (Eigen::Index j = 0; j <= i; ++j) {
         w(i, j) = w(j, i) = wendland(glm::distance(point.place, at_[static_cast<std::size_t>(j)]) / reach_mm);
       }
-      const double sigma = exact ? 0 : 0.5 * point.known_to_mm / usual_move_mm;
+      const double sigma = exact ? 0 : std::min(0.5 * point.known_to_mm / usual_move_mm, worst_sigma);
       w(i, i) += sigma * sigma;
     }
     solved_.compute(w);
@@ -87,14 +88,18 @@ void refuse_islands(const DistanceField& field, const std::vector<TracePoint>& p
     const Distance there = field.parts().sample_nearest(points[n].place);
     if (std::abs(there.mm) < carried * reach_mm) continue;
     const double sign = there.mm > 0 ? 1 : -1;
-    const Vec3 to_edge = -there.mm * glm::normalize(there.gradient);
-    for (double part = 0.1; part < 1; part += 0.1) {
-      const Vec3 at = points[n].place + part * to_edge;
-      if (sign * change.after(at, field.parts().sample_nearest(at).mm, all) > 0.1) {
-        const double needed = std::ceil(std::abs(there.mm) / carried);
-        throw InvalidInput(say("trace-would-leave-an-island", n + 1, fmt::format("{:.1f}", std::abs(there.mm)),
-                               fmt::format("{:.0f}", needed)));
-      }
+    const auto is_cut_off = [&](const Vec3& at) {
+      return sign * change.after(at, field.parts().sample_nearest(at).mm, all) > 0.1;
+    };
+    // In the middle of the structure the distance has no slope: no way leads to the edge.
+    bool is_island = !(glm::length(there.gradient) > 0);
+    for (double part = 0.1; part < 1 && !is_island; part += 0.1) {
+      is_island = is_cut_off(points[n].place - part * there.mm * glm::normalize(there.gradient));
+    }
+    if (is_island) {
+      const double needed = std::ceil(std::abs(there.mm) / carried);
+      throw InvalidInput(say("trace-would-leave-an-island", n + 1, fmt::format("{:.1f}", std::abs(there.mm)),
+                             fmt::format("{:.0f}", needed)));
     }
   }
 }

@@ -300,6 +300,53 @@ TEST(EditsLaws, APointThatIsKnownBadlyPullsLess) {
   }
 }
 
+TEST(EditsLaws, APointThatIsKnownToNothingChangesNothing) {
+  const EditedBody& body = bodies()[0];
+  const std::vector<Vec3> places = {{23, 0, 0}, {0, 15, 0}, {0, 0, -18.5}};
+  const auto alone = apply_edit(body.field, TraceEdit{.points_mm = {places[0]}, .known_to_mm = {0}, .reach_mm = 16});
+  for (const double known_to : {1e5, 1e9, 1e155, 1e160, 1e308}) {
+    for (std::size_t count = 2; count <= places.size(); ++count) {
+      TraceEdit trace{.points_mm = {places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count)},
+                      .known_to_mm = std::vector<double>(count, known_to),
+                      .reach_mm = 16};
+      trace.known_to_mm[0] = 0;
+      const auto both = apply_edit(body.field, trace);
+      for (const Vec3& place : {places[0], places[1], places[2], Vec3(17, 8, 3), Vec3(9, -9, 9)}) {
+        EXPECT_NEAR(both->sample(place).mm, alone->sample(place).mm, 0.02) << known_to << ' ' << count;
+      }
+    }
+  }
+}
+
+// In the middle of a plate, of a ball and of a rod the distance may have no slope at all: the point is refused in
+// words, or the edge comes to it.
+TEST(EditsLaws, APointInTheMiddleIsReachedOrRefused) {
+  const auto plate = [](double half) { return [=](const Vec3& at) { return std::abs(at.z) < half; }; };
+  const auto ball = [](double half) { return [=](const Vec3& at) { return glm::length(at) < half; }; };
+  const auto rod = [](double half) { return [=](const Vec3& at) { return glm::length(glm::dvec2(at)) < half; }; };
+  DistanceOptions near;
+  near.reach_mm = 8;
+  int refused = 0, reached = 0;
+  for (const double half : {4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0}) {
+    for (const InsideOf& inside : {InsideOf(plate(half)), InsideOf(ball(half)), InsideOf(rod(half))}) {
+      const FieldPointer field = distance_of(made_labels(inside, 24, {}), near);
+      for (const double reach : {2.0, 8.0, 9.5}) {
+        for (const Vec3& at : {Vec3(0), Vec3(0, 0, 1e-9), Vec3(0.5), Vec3(3, 3, 0)}) {
+          try {
+            const auto edited = apply_edit(field, TraceEdit{.points_mm = {at}, .known_to_mm = {}, .reach_mm = reach});
+            EXPECT_LT(std::abs(edited->sample(at).mm), 0.5) << half << ' ' << reach;
+            ++reached;
+          } catch (const InvalidInput&) {
+            ++refused;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(refused, 20);
+  EXPECT_GT(reached, 5);
+}
+
 /// A ball of 34 mm, and a wavy ring of 200 points that stands out of it.
 TraceEdit wavy_trace() {
   TraceEdit trace;

@@ -12,11 +12,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double bandwidth_of_range = 0.005, bandwidth_of_noise = 0.75;
 constexpr double least_in_noise = 4;         // standard deviations between the two sides
 constexpr double least_in_bandwidths = 3.5;  // two hills nearer than that are one
-constexpr double steep_in_noise = 5;  // standard deviations of the gradient: noise is as steep in a voxel of 10^5
+constexpr double steep_in_noise = 5;  // standard deviations of the gradient: noise is as steep in one voxel of 10^5
 // A plate half a scale thick has this part of the steepest gradient of a step: w / (sigma sqrt(e)).
 constexpr double part_of_thin = 0.3;
-// Of the voxels at boundaries between tissues. Where their steep rises are taken to end varies, and makes pairs of up
-// to 3 % that are no walls.
+// A fraction of the voxels at boundaries between tissues. The ends of steep rises vary, which makes pairs of up to 3
+// % that are not walls.
 constexpr double wall_share = 0.04;
 constexpr double air_below_hu = -900;
 
@@ -24,7 +24,7 @@ double steepest(double step, double scale_mm) {
   return step / (scale_mm * std::sqrt(2 * std::numbers::pi));
 }
 
-/// Bone comes in all degrees, and what lies in air is no patient's.
+/// Bone has no typical value, and material as light as air is not part of a patient.
 bool is_searched(const TissueHills& tissues, std::size_t t, bool is_ct) {
   if (!is_ct) return t > 0;
   return tissues.typical[t] > air_below_hu && tissues.typical[t] < least_bone_hu;

@@ -26,8 +26,8 @@ auto choice(const At& at, const Names& names) {
   refuse(at.path, say("there-is-no-such-name", name, known));
 }
 
-/// Reads nodes and interpolation from the members of an object that may hold other keys too. `what` says in what the
-/// values are.
+/// Reads nodes and interpolation from the members of an object that may hold other keys too. `what` names the
+/// quantity of the values.
 TransferFunction transfer_function(Members& members, const std::string& what) {
   const At list = members.get("nodes");
   std::vector<Node> nodes;
@@ -159,7 +159,7 @@ SceneStructure read_structure(const At& at) {
   Members members(at);
   SceneStructure structure;
   structure.name = text(members.get("name"));
-  // Without them the contours of its edits have to make it: validate() checks it.
+  // Without a file, the contours of the edits must define the structure. validate() checks this.
   members.optional("file", structure.file, text);
   if (members.has("segment")) {
     const At segment = members.get("segment");

@@ -12,7 +12,7 @@ namespace {
 // Below this a gradient has no direction that a step could take.
 constexpr double least_slope = 1e-150;
 
-// Of a movement, how much of it goes across the surface: the square of its direction's cosine to the normal, 0 to 1.
+// The part of a movement that is across the surface: the squared cosine between its direction and the normal, 0 to 1.
 double share_across(double rise, const Vec3& slope, const Vec3& moved) {
   const double most = glm::dot(slope, slope) * glm::dot(moved, moved);
   return most > 0 ? std::min(rise * rise / most, 1.0) : 0.0;
@@ -42,8 +42,8 @@ void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, Held
     const Vec3 moved = place_mm - contact.place_mm;
     const Vec3 slope = 0.5 * (contact.gradient + gradient);
     const double rise = glm::dot(slope, moved);
-    // A proxy that is held moves with the surface: what the value does there is interpolation and noise. And the step
-    // of the anchor is as long as the smoothed slope says.
+    // A proxy that is held moves with the surface: there the value changes only by interpolation and noise. The
+    // smoothed slope gives the length of the anchor's step.
     const double across = contact.hold == HoldState::held ? 0.0 : share_across(rise, slope, moved);
     contact.level += across * (value - contact.value) + (1 - across) * rise;
     if (contact.hold != HoldState::held) {
@@ -51,7 +51,7 @@ void follow_level(double value, const Vec3& gradient, const Vec3& place_mm, Held
     } else if (contact.before != HoldState::held) {
       contact.offset = contact.level - value;
     }
-    // Not while yielding: the strength is felt then, and a steep one would show every step of the level.
+    // Not while yielding: then the strength is felt, and a steep strength curve would make each step of the level felt.
     if (contact.hold != HoldState::yielding) {
       // A value that is not found nearby (a boundary that thins out) draws the proxy along a gentle slope, not through
       // it.

@@ -174,6 +174,15 @@ TEST(CommandCorrect, ContoursMakeANewOneInEveryForm) {
   }
   ASSERT_EQ(core.correct(edits, "named.dcm", "--name \"Left lobe\"").exit, 0);
   EXPECT_EQ(io::find_structures(std::array{core.folder / "named.dcm"}).structures.at(0).name, "Left lobe");
+  // Names and files with colons, as planning systems write them.
+  for (const std::string name : {"PTV:60", "Heart: left", "a:b:c", ":"}) {
+    const std::string file = (name.size() > 5 ? "colons:" : "plain") + std::to_string(name.size()) + ".dcm";
+    ASSERT_EQ(core.correct(edits, "\"" + file + "\"", "--name \"" + name + "\"").exit, 0) << name;
+    const std::string whole = "\"" + (core.folder / file).string();
+    EXPECT_LT(core.largest_mm(whole + ":" + name + "\""), 1.1) << name;
+    EXPECT_LT(core.largest_mm(whole + "\""), 1.1) << name;
+    EXPECT_LT(core.largest_mm(whole + ":1\""), 1.1) << name;
+  }
   const Outcome both = core.correct(edits, "both.dcm", "--name Lobe --structure " + core.whole);
   EXPECT_EQ(both.exit, 2) << both.output;
   const Outcome of_a_file = core.correct(edits, "both.dcm", "--structure " + core.whole);

@@ -57,6 +57,13 @@ SnapshotMaker on_series(const io::Series& series, int otherwise, StructureFiles 
   };
 }
 
+Replay replay_of(const Recording& recording, const SnapshotMaker& make_snapshot,
+                 const std::filesystem::path& file) try {
+  return replay(recording, make_snapshot);
+} catch (const DamagedRecording& error) {
+  throw InputRefused(at_place(file.string(), error.text()));
+}
+
 /// The uncertainty of the boundaries that held the proxy, over the ticks for which it is known.
 Percentiles known_to_of(const Recording& recording) {
   std::vector<double> known;
@@ -131,7 +138,8 @@ void run(const ReplayOptions& options) {
   const std::filesystem::path beside = structures_beside(options.recording);
   if (std::filesystem::is_directory(beside)) places.push_back(beside);
   places.push_back(options.series.path);
-  const Replay result = replay(recording, on_series(*series, options.series.frame, StructureFiles(std::move(places))));
+  const Replay result = replay_of(
+      recording, on_series(*series, options.series.frame, StructureFiles(std::move(places))), options.recording);
   if (options.json) {
     print_json(result, recording);
   } else {

@@ -23,11 +23,17 @@ struct NamedStructure {
   std::string segment;  ///< empty: the file's only one
 };
 
+/// FILE or FILE:SEGMENT. Both may contain colons: the file is the longest part that exists.
 NamedStructure split(const std::string& text) {
   std::error_code ignored;
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || std::filesystem::exists(text, ignored)) return {text, {}};
-  return {text.substr(0, colon), text.substr(colon + 1)};
+  if (std::filesystem::exists(text, ignored)) return {text, {}};
+  const std::size_t last = text.rfind(':');
+  for (std::size_t colon = last; colon != std::string::npos && colon > 0; colon = text.rfind(':', colon - 1)) {
+    const std::string file = text.substr(0, colon);
+    if (std::filesystem::exists(file, ignored)) return {file, text.substr(colon + 1)};
+  }
+  if (last == std::string::npos) return {text, {}};
+  return {text.substr(0, last), text.substr(last + 1)};  // whichever is named in the refusal
 }
 
 }  // namespace

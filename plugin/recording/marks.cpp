@@ -15,11 +15,11 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr double still_mm = 2;        // a hand that presses a button moves so far
+constexpr double still_mm = 2;        // a hand moves up to this distance while it presses a button
 constexpr double path_step_mm = 0.2;  // shorter steps are tremor, and would add to a path's length
 
-constexpr double tap_s = 0.25;   // a key is not tapped longer: nobody draws a path in that time
-constexpr double held_n = 0.05;  // below, a boundary is not said to be felt
+constexpr double tap_s = 0.25;   // a shorter press is a tap, too short to draw a path
+constexpr double held_n = 0.05;  // below this, a boundary counts as not felt
 
 bool is_boundary(const modes::Mode& mode) {
   using modes::Key;
@@ -32,7 +32,7 @@ std::string boundary_of(const MarkPresses::Moment& moment) {
   std::string name;
   for (const PrimitiveRecord& share : moment.shares) {
     const glm::dvec3 force(share.force_n[0], share.force_n[1], share.force_n[2]);
-    const bool is_of_scene = share.mode < moment.scene.modes.size();  // else of the scene that is being left
+    const bool is_of_scene = share.mode < moment.scene.modes.size();  // else it belongs to the previous scene
     if (!is_of_scene || glm::length(force) <= strongest) continue;
     const modes::Mode& mode = moment.scene.modes[share.mode];
     if (!is_boundary(mode)) continue;
@@ -88,7 +88,7 @@ std::optional<MarkMade> MarkPresses::finish() {
 }
 
 PathContact contact_of(const MarkedPath& path) {
-  constexpr double little = 0.05;  // of its length: where it begins and ends
+  constexpr double little = 0.05;  // of the length, allowed at the path's two ends
   if (std::isnan(path.touched_mm)) return PathContact::unknown;
   if (path.touched_mm >= (1 - little) * path.length_mm) return PathContact::all_along;
   return path.touched_mm <= little * path.length_mm ? PathContact::nowhere : PathContact::partly;

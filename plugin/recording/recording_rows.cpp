@@ -55,7 +55,7 @@ RegisteredStructure registered_structure(const Json& json) {
   return registered;
 }
 
-/// A name may come from a file that is not UTF-8: it ends no recording.
+/// A name from a file may not be UTF-8. This must not end a recording.
 std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

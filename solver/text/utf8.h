@@ -27,7 +27,7 @@ inline std::string utf8_text(std::string_view text) {
   return valid;
 }
 
-/// The text without a character of UTF-8 of which only the first bytes are there: its room was too small.
+/// The text without an incomplete last character of UTF-8, which was cut because the buffer was too small.
 inline std::string_view without_cut_character(std::string_view text) {
   constexpr std::size_t most_missing = 3;
   for (std::size_t tail = 1; tail <= std::min(most_missing, text.size()); ++tail) {

@@ -45,7 +45,7 @@ UnsavedGuard::UnsavedGuard(UnsavedWork& work, ScanModel& scans, QMainWindow& win
       [this] { work_.keep_all(); }, this);
 }
 
-/// Whether the user wants what follows: where something is not saved they are asked.
+/// Asks the user if something is not saved. Returns whether the action may go on.
 bool UnsavedGuard::may_lose(const Unsaved& work, const QString& before, const std::function<void()>& let_go) {
   if (!work.any()) return true;
   switch (ask_what_becomes_of(work, before, &window_)) {
@@ -90,7 +90,7 @@ QString UnsavedGuard::recover() {
   folder.mkpath(QStringLiteral("."));
   const QString file = folder.filePath(QStringLiteral("unsaved-%1.pvsm").arg(now_in_a_name()));
   if (!write_state(file)) return not_written(file);
-  QFile::setPermissions(file, QFileDevice::ReadOwner | QFileDevice::WriteOwner);  // it names the patient's folder
+  QFile::setPermissions(file, QFileDevice::ReadOwner | QFileDevice::WriteOwner);  // the file names the patient's folder
   return words(say("unsaved-work-is-kept", work.toStdString(), file.toStdString()));
 }
 

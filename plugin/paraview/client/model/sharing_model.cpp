@@ -105,7 +105,7 @@ void SharingModel::send_marks() {
 }
 
 void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& prepared) {
-  if (session_.expects_scan()) throw Refusal(say("scan-is-still-being-read"));  // it was made on the one before
+  if (session_.expects_scan()) throw Refusal(say("scan-is-still-being-read"));  // made on the previous scan
   session_.offer(prepared);
   const auto refused = std::make_shared<QString>();
   scene_.edit(

@@ -42,7 +42,7 @@ class StructuresSection : public QWidget {
                     QWidget* parent = nullptr);
   ~StructuresSection() override;
 
-  /// Searches structures for a new scan, in its folder; null: there is no scan.
+  /// Searches the folder of a new scan for structures; null: there is no scan.
   void set_scan(std::shared_ptr<const io::Volume> scan, const std::string& folder);
   /// Another frame of the scan. The list stays; everything computed for the previous frame is computed again.
   void set_frame(const std::shared_ptr<const io::Volume>& frame);

@@ -66,7 +66,7 @@ class ScanSection : public QWidget {
   ScanModel& model_;
   QTabBar* tabs_ = nullptr;
   ArchiveTab* archive_ = nullptr;
-  std::string fetched_;  // from an archive: what was opened last; empty: something else was
+  std::string fetched_;  // the path opened last, if it came from an archive; else empty
   unsigned requests_before_fetch_ = 0;
   QWidget* folder_ = nullptr;
   SeriesList* series_ = nullptr;

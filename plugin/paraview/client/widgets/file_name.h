@@ -22,8 +22,8 @@ inline QString ask_file_to_write(QWidget* parent, const QString& title, const QS
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
   QString file = dialog.selectedFiles().first();
   if (!QFileInfo(file).suffix().isEmpty()) return file;
-  // Qt 5 adds the suffix only if there is no dot in the whole path, as in the folder "study 1.2", and did not ask about
-  // overwriting this file.
+  // Qt 5 adds the suffix only if there is no dot in the whole path, as in the folder "study 1.2", and then the dialog
+  // has not asked about overwriting the file with the suffix.
   const QString whole = file + QLatin1Char('.') + suffix;
   const bool taken =
       QFileInfo::exists(whole) &&

@@ -82,7 +82,8 @@ int PalpateFields::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
     wanted[2 * axis + 1] = std::min(wanted[2 * axis + 1] + reach, whole[2 * axis + 1]);
   }
   image.Set(Pipeline::UPDATE_EXTENT(), wanted.data(), 6);
-  // A rank of several is asked for a piece; what extent that is, its source works out from the piece and its ghosts.
+  // If there are several ranks, each is asked for a piece. Its source computes the extent from the piece and its
+  // ghosts.
   vtkInformation& asked = *output->GetInformationObject(0);
   if (plugin::pieces_of(asked) > 1) plugin::ask_for_ghosts(image, asked, reach);
   return 1;
@@ -115,7 +116,7 @@ int PalpateFields::RequestData(vtkInformation*, vtkInformationVector** input, vt
     // The neighbors' voxels are read, and not passed on.
     vtkInformation& asked = *output->GetInformationObject(0);
     const std::array<int, 6> part = own_part(image, asked);
-    // Nor are the marks that tell theirs: nothing is marked in a rank's own part, and they take 2 bytes a voxel.
+    // The marks of ghost voxels are not passed on either. A rank's own part has none, and they take 2 bytes a voxel.
     if (plugin::pieces_of(asked) > 1 && plugin::ghosts_of(asked) == 0) plugin::remove_ghost_marks(result);
     plugin::cut_to(part, result);
     const auto volume = plugin::scan_of(image);

@@ -37,7 +37,7 @@ bool is_told(const char* sentence) {
   return label("palpateArchiveMessage") == sentence;
 }
 
-/// Types into the patient's name, which has the keyboard: no press is needed.
+/// Types into the field of the patient's name. The field has the keyboard focus, so no press is needed.
 void type(const QString& text) {
   auto& field = find<QLineEdit>("palpateFindPatient");
   expect(field.window()->focusWidget() == &field, "the patient's name has the keyboard");
@@ -62,7 +62,7 @@ QString fetched_folder() {
   return qEnvironmentVariable("HOME") + "/.cache/palpate/fetched";
 }
 
-/// From an empty ParaView, with one press after the other counted.
+/// Starts with an empty ParaView and counts the presses.
 void felt_from_the_archive() {
   open_archive_tab();
   wait_for("the archive's studies are listed", [] { return found().topLevelItemCount() == 2; });
@@ -76,7 +76,7 @@ void felt_from_the_archive() {
   expect(series.text(0).endsWith("64 images"), "its images are counted: " + series.text(0).toStdString());
   expect(!find<QPushButton>("palpateFetch").isEnabled(), "nothing is chosen yet");
   choose(series);
-  wait_ms(300);  // until it is drawn: the guide shows it
+  wait_ms(300);  // until the choice is drawn, for the guide's picture
   save_screen("archive-chosen");
   click("palpateFetch");
   scan_is_shown();
@@ -120,7 +120,7 @@ void what_is_fetched_is_kept() {
   scan_is_shown();
 }
 
-/// A scan that was asked for later is not replaced by one that was asked for before it.
+/// A scan does not replace another one that was requested after it.
 void what_is_fetched_late_is_offered() {
   open_archive_tab();
   choose(first_series());
@@ -142,7 +142,7 @@ void what_is_fetched_late_is_offered() {
   expect(offer.isHidden(), "it is open");
 }
 
-/// In a program of its own, after the one before.
+/// Runs in a new program, after the previous scenario.
 void what_was_kept_is_emptied() {
   open_archive_tab();
   wait_for("what was kept is counted", [] { return label("palpateOnDisk").startsWith("On disk: 1 series, "); });
@@ -205,7 +205,7 @@ void an_archive_is_entered() {
   scan_is_shown();
 }
 
-/// Of an archive that speaks TLS alone and asks for our certificate.
+/// An archive that accepts only TLS and asks for our certificate.
 void an_archive_is_entered_with_tls() {
   const QString certificates = qEnvironmentVariable("PALPATE_CERTIFICATES") + "/";
   open_archive_tab();
@@ -246,7 +246,7 @@ void an_archive_is_entered_with_tls() {
 void a_fetch_is_cancelled() {
   open_archive_tab();
   first_series();
-  choose(*found().topLevelItem(0));  // the study: its series has no UID
+  choose(*found().topLevelItem(0));  // the study, because its series has no UID
   click("palpateFetch");
   auto& progress = find<QProgressBar>("palpateFetching");
   wait_for("it is fetched", [&] { return progress.isVisible(); });
@@ -261,7 +261,7 @@ void a_fetch_is_cancelled() {
     wait_for(
         "it is said", [] { return is_told("Cancelled."); }, 20);
     const auto stretches = watch.without_rendering();
-    constexpr double longest_ms = 1000;  // a busy machine, and much less than an archive is waited for
+    constexpr double longest_ms = 1000;  // enough for a busy machine; the wait for an archive is much longer
     expect(stretches.empty() || stretches.front() < longest_ms, "nothing waits for the archive");
   }
   wait_for(

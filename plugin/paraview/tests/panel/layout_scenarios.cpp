@@ -67,7 +67,7 @@ QRect on_screen(const QWidget& of) {
   return {of.mapToGlobal(QPoint(0, 0)), of.size()};
 }
 
-/// All of it: in the window, and in whatever scrolls around it.
+/// Whether the whole widget is visible, in the window and in every scroll area around it.
 bool is_all_in_sight(const char* name) {
   QWidget& of = find<QWidget>(name);
   const QRect place = on_screen(of);
@@ -98,7 +98,7 @@ QString five_tissues() {
   return name;
 }
 
-/// PALPATE_POINTS: as large as the screen is, in points.
+/// PALPATE_POINTS: the size of the screen in points.
 void the_panel_fits_the_screen() {
   scan_is_shown();
   const QSize points = QGuiApplication::primaryScreen()->size();
@@ -136,7 +136,7 @@ int views_in_sight() {
   return count;
 }
 
-/// Another number for other views.
+/// A number that changes if the views are made anew.
 unsigned views_made() {
   unsigned sum = 0;
   for (const auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
@@ -150,7 +150,7 @@ void double_click(const char* name) {
   double_click(in, QPoint(in.width() / 4, in.height() * 3 / 4));
 }
 
-/// ParaView's *Properties* stand for the representation that is active, once they are seen.
+/// ParaView's *Properties* show the active representation as soon as they are visible.
 void expect_properties_of_the_active() {
   const auto& panel = *whole_window().findChild<pqPropertiesPanel*>();
   wait_for(
@@ -164,7 +164,7 @@ void expect_properties_of_the_active() {
       20);
 }
 
-/// Hidden, they would keep a scan's views and representations in memory when it is closed.
+/// Hidden *Properties* with a view or representation would keep it in memory when the scan is closed.
 void expect_properties_hold_no_view() {
   const auto& panel = *whole_window().findChild<pqPropertiesPanel*>();
   wait_for(
@@ -177,7 +177,7 @@ void expect_properties_hold_no_view() {
       20);
 }
 
-/// ParaView's own comes and goes, and follows what became active meanwhile.
+/// *Advanced* shows and hides ParaView's own parts. They show what became active while they were hidden.
 void advanced_shows_the_host() {
   click("palpateAdvancedButton");
   expect_host(true, "under Advanced");
@@ -190,7 +190,7 @@ void advanced_shows_the_host() {
   expect_host(false, "without Advanced");
   expect_properties_hold_no_view();
   pqActiveObjects::instance().setActiveView(&render_view("Coronal"));
-  click("palpateAdvancedButton");  // and so it is left
+  click("palpateAdvancedButton");  // stays on for advanced_is_remembered()
   expect_properties_of_the_active();
 }
 
@@ -267,7 +267,7 @@ void advanced_is_remembered() {
   expect(find<QToolButton>("palpateAdvancedButton").isChecked(), "the toolbar says so");
 }
 
-/// A scan's folder is known the next time, and so are its windows, the guide, and a picture of it.
+/// The windows, the pictures, the guide and the recent folder work, and so does saving a scene.
 void ones_way_is_found() {
   scan_is_shown();
   QWidget& axial = view("Axial");
@@ -291,7 +291,7 @@ void ones_way_is_found() {
   wait_for(
       "one view is alone", [] { return views_in_sight() == 1; }, 20);
   is_laid_out(view("Axial"));
-  QFile::remove(picture + ".png");  // or it asks whether to replace it
+  QFile::remove(picture + ".png");  // else the program asks whether to replace the file
   name_file("palpatePictureButton", picture);
   const QImage one(picture + ".png");
   expect(std::abs(one.width() - view("Axial").width()) < 8, "the picture is of that view");
@@ -338,7 +338,7 @@ std::vector<double> volume_opacity() {
   return {};
 }
 
-/// Of the volume view's pixels, those that are not black: its letters and marker are one in fifty.
+/// The fraction of the volume view's pixels that are not black. Its letters and marker are a fiftieth.
 double shown_part() {
   const QImage picture = view("Volume").grab().toImage();
   int shown = 0;
@@ -350,7 +350,7 @@ double shown_part() {
   return static_cast<double>(shown) / (picture.width() * picture.height());
 }
 
-/// Whatever is tuned. *Felt boundaries* draws surfaces, and leaves the scan's own look as it is.
+/// A chosen look stays while a scene is tuned. *Felt boundaries* draws surfaces and does not change the other look.
 void a_chosen_look_stays() {
   scan_is_shown();
   auto& looks = find<QComboBox>("palpateVolumeLook");

@@ -35,13 +35,13 @@
 // Measurements: how long the main thread is busy, how long the first pictures take, and what the program takes at rest.
 namespace {
 
-/// Not a test but a measurement: how long the main thread is busy at a stretch while one probes. ParaView updates its
-/// slices before it renders them: that is only left out where they do not follow.
+/// Not a test but a measurement: how long the main thread is busy at a stretch while the user probes. ParaView
+/// updates slices before it renders them. This time is left out only if slices do not follow.
 void main_thread() {
   feel();
   QWidget& sagittal = view("Sagittal");
   const QPoint from = proxy_in(sagittal);
-  // Not by a program of its own, whose start would keep this thread busy for longer than the panel does.
+  // Not with a separate program: to start one keeps this thread busy for longer than the panel does.
   const auto point_at = [&](int x, int y) { QCursor::setPos(sagittal.mapToGlobal(from + QPoint(x, y))); };
   const auto print_events = [](const BusyWatch& watch) {
     const std::vector<double> events = watch.events_ms();
@@ -68,7 +68,7 @@ void main_thread() {
   QElapsedTimer clock;
   double full_s = 0, longest_s = 0;
   bool had_rows_left = false;
-  // A hand that creeps on a little later has its next picture: the first counts.
+  // Only the first picture counts. If the hand still creeps a little, another picture comes later.
   const palpate::plugin::EventWatch drawn(
       render_view("Volume").getRenderViewProxy()->GetRenderer(), vtkCommand::EndEvent, [&] {
         const bool has_rows_left = caster_of_the_volume().has_rows_left();
@@ -107,7 +107,7 @@ bool is_painted(const char* name) {
   return false;
 }
 
-/// Those of 100 ms or more, each with when it began.
+/// Prints the stretches of 100 ms or more, each with its beginning.
 void print_stretches(const BusyWatch& watch) {
   constexpr double long_ms = 100;
   for (const BusyWatch::Stretch& one : watch.stretches()) {
@@ -149,7 +149,7 @@ double processor_s() {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// Counts what is painted, by name: whatever is painted anew costs a picture of the whole window.
+/// Counts what is painted, by name: each repainted widget costs a picture of the whole window.
 class Painted : public QObject {
  public:
   Painted() { qApp->installEventFilter(this); }
