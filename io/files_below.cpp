@@ -25,7 +25,8 @@ fs::path meant_by(const fs::path& path) {
 }  // namespace
 
 // Links to folders are not followed: they may lead in a circle.
-std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<SkippedFile>& skipped) {
+std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<SkippedFile>& skipped,
+                                  const Progress& progress) {
   std::vector<fs::path> files;
   for (const fs::path& named : paths) {
     std::error_code error;
@@ -39,6 +40,7 @@ std::vector<fs::path> files_below(std::span<const fs::path> paths, std::vector<S
     auto entry = fs::recursive_directory_iterator();
     if (!error) entry = {path, fs::directory_options::skip_permission_denied, error};
     for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+      if (progress && !progress(0)) throw Cancelled();
       std::error_code ignored;
       if (entry->is_regular_file(ignored)) files.push_back(entry->path());
       if (entry->is_directory(ignored) && ::eaccess(entry->path().c_str(), R_OK | X_OK) != 0) {

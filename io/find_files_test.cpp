@@ -9,8 +9,10 @@
 
 #include "io/dicom/dcmtk_start.h"
 #include "io/errors.h"
+#include "io/files_below.h"
 #include "io/load.h"
 #include "io/series.h"
+#include "io/structures/structure.h"
 #include "io/testing/comma_locale.h"
 #include "io/testing/test_image.h"
 
@@ -127,6 +129,28 @@ TEST(FindFiles, CanBeCancelledAndReportsProgress) {
   LoadOptions options;
   options.progress = [](double) { return false; };
   EXPECT_THROW(load(found.series.at(0), options), Cancelled);
+}
+
+/// Listing "/" takes minutes.
+TEST(FindFiles, TheListingOfAFolderCanBeCancelled) {
+  const TestFolder folder;
+  std::filesystem::create_directory(folder / "below");
+  for (const char* const name : {"a", "b", "below/c"}) std::ofstream(folder / name);
+  const std::array paths{folder.path()};
+  std::vector<SkippedFile> skipped;
+  int asked = 0;
+  EXPECT_THROW(files_below(paths, skipped, [&](double) { return ++asked < 3; }), Cancelled);
+  EXPECT_EQ(asked, 3);
+  int at_the_start = 0;
+  const auto count = [&](double done) {
+    at_the_start += done == 0 ? 1 : 0;
+    return true;
+  };
+  find_series(paths, count);
+  EXPECT_GE(at_the_start, 4) << "each entry";
+  at_the_start = 0;
+  find_structures(paths, count);
+  EXPECT_GE(at_the_start, 4);
 }
 
 TEST(FindFiles, EveryFileOfAForeignFolderIsNamed) {

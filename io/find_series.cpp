@@ -166,7 +166,7 @@ Catalogue find_series(std::span<const fs::path> paths, const Progress& progress)
   std::vector<internal::FileHeader> images;
   std::vector<Series> others;
   KnownFiles known_files;
-  for (Looked& one : look_at_files(internal::files_below(paths, catalogue.skipped), paths, progress)) {
+  for (Looked& one : look_at_files(internal::files_below(paths, catalogue.skipped, progress), paths, progress)) {
     known_files.emplace(one.file.path.native(), std::move(one.known));
     if (one.header) {
       images.push_back(std::move(*one.header));

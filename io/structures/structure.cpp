@@ -106,7 +106,7 @@ const char* name_of(StructureKind kind) noexcept {
 StructureCatalogue find_structures(std::span<const fs::path> paths, const Progress& progress) {
   internal::start_dcmtk();
   StructureCatalogue catalogue;
-  const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped);
+  const std::vector<fs::path> files = internal::files_below(paths, catalogue.skipped, progress);
   std::vector<fs::path> named_paths(paths.begin(), paths.end());
   std::ranges::sort(named_paths);
   std::vector<StructureCatalogue> found(files.size());

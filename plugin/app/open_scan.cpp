@@ -18,8 +18,11 @@
 namespace palpate::plugin {
 
 io::Volume open_scan(const io::Series& series, int frame) {
-  io::Volume volume =
-      io::load(series, {.frame = frame, .progress = terminal_progress("reading slices"), .is_rescaled = true});
+  return open_scan(series, frame, terminal_progress("reading slices"));
+}
+
+io::Volume open_scan(const io::Series& series, int frame, const io::Progress& progress) {
+  io::Volume volume = io::load(series, {.frame = frame, .progress = progress, .is_rescaled = true});
   const auto show = [](const std::string& warning) {
     std::fprintf(stderr, "palpate: warning: %s\n", printable(warning).c_str());
   };

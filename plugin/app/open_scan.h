@@ -15,6 +15,8 @@ namespace palpate::plugin {
 
 /// One frame of a series, its values rescaled. Warnings go to stderr, and progress if stderr is a terminal.
 io::Volume open_scan(const io::Series& series, int frame);
+/// The same with another progress. Throws io::Cancelled.
+io::Volume open_scan(const io::Series& series, int frame, const io::Progress& progress);
 
 /// The scene of that name: a file or a starting scene. If the name is empty: the one that suits the scan
 /// (modes::starting_scene). Throws std::invalid_argument as modes::load_scene() does.

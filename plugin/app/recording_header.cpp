@@ -4,6 +4,18 @@
 #include "plugin/structures/structure_files.h"
 
 namespace palpate::plugin {
+namespace {
+
+/// The scene with the hash of what was read in place of the file of each felt structure.
+modes::Scene with_hashes(modes::Scene scene, const PreparedScene& felt) {
+  for (std::size_t n = 0; n < felt.structures.size(); ++n) {
+    const std::string& hash = felt.structures[n].hash;
+    if (!hash.empty()) scene.structures[felt.plan->structures[n]].file = hash;
+  }
+  return scene;
+}
+
+}  // namespace
 
 RecordingHeader header_for(const modes::Scene& scene, const device::Specification& stylus, const std::string& scan_hash,
                            double seed) {
@@ -17,7 +29,7 @@ RecordingHeader header_for(const modes::Scene& scene, const device::Specificatio
 
 SceneRecord record_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus,
                       const std::string& scan_hash) {
-  SceneRecord record{.scene = modes::to_json(without_paths(scene)),
+  SceneRecord record{.scene = modes::to_json(without_paths(with_hashes(scene, felt))),
                      .scan_hash = scan_hash,
                      .half_extent_m = stylus.workspace_half_extent,
                      .maximum_force_n = stylus.maximum_force,

@@ -14,7 +14,8 @@ namespace palpate::plugin {
 RecordingHeader header_for(const modes::Scene& scene, const device::Specification& stylus, const std::string& scan_hash,
                            double seed = 0);
 
-/// The record of the first scene that is felt on a scan. Paths of files are left out.
+/// The record of the first scene that is felt on a scan. Paths of files are left out. A felt structure is named by the
+/// content that was read, even if its file was rewritten since.
 SceneRecord record_of(const modes::Scene& scene, const PreparedScene& felt, const device::Specification& stylus,
                       const std::string& scan_hash);
 

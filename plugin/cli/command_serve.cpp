@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "plugin/app/errors.h"
 #include "plugin/app/interruptible.h"
@@ -24,10 +26,10 @@ struct ServeCommand {
   std::filesystem::path output;
 };
 
-igtl::LoadedScan load_folder(const std::string& folder) {
-  const SeriesOption option{.path = folder};
-  const io::Series series = choose_series(option);
-  return {.volume = std::make_shared<const io::Volume>(open_scan(series, 0)),
+igtl::LoadedScan load_folder(const std::string& folder, const io::Progress& progress) {
+  const std::array paths{std::filesystem::path(folder)};
+  const io::Series series = choose_series({.path = folder}, io::find_series(paths, progress));
+  return {.volume = std::make_shared<const io::Volume>(open_scan(series, 0, progress)),
           .frame = {.number = 0, .count = series.frames_per_position}};
 }
 

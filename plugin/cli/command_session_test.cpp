@@ -157,6 +157,20 @@ TEST(CommandSession, AChangedRecordingIsRefusedByReplay) {
             1);
 }
 
+/// Also where its numbers would keep the session counting.
+TEST(CommandSession, ADamagedRecordingIsNamedByReplay) {
+  const auto out = fresh_path("damaged"), file = fresh_path("counts.h5");
+  ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 0.3 -o " + out.string()).exit, 0);
+  Recording recording = read_recording(out / "recording.h5");
+  recording.scenes.push_back(recording.scenes.at(0));
+  recording.scenes.back().epoch = recording.ticks.back().scene_epoch = 4'000'000'000;
+  write_recording(recording, file);
+  const Outcome outcome = palpate("replay " + file.string() + " " + phantom().string());
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("palpate: " + file.string() +
+                                        ": the recording goes on from its scene 0 to 4000000000: the file is damaged"));
+}
+
 /// What replay says of a recording that was changed at known ticks by known amounts, in words and as JSON.
 TEST(CommandSession, ReplayTellsWhereAndByHowMuchARecordingDiffers) {
   const auto out = fresh_path("to change"), file = fresh_path("known.h5");

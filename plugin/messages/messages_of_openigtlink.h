@@ -46,6 +46,17 @@ inline constexpr MessageRow openigtlink[] = {
     {"the network may only tighten what was set at the stylus",
      "nothing; or raise them at the stylus, by `--scene` or in the panel",
      {{"igtl-limits-stay", "limits or stiffness of the scene are reduced to those that were set at the stylus"}}},
+    {"the owner of the session alone chooses how hand and patient meet: another mapping would move the stylus through "
+     "the "
+     "patient",
+     "nothing; or begin the session with that scene",
+     {{"igtl-workspace-stays", "the scene's workspace is not taken: the session keeps its own"}}},
+    {"what is done at the stylus meanwhile stays",
+     "fetch the scene as it is now, change it, and send it again",
+     {{"igtl-scene-is-older", "the scene was changed at the stylus while this one was being prepared"}}},
+    {"marks stay until the session ends",
+     "send fewer, or begin a new session",
+     {{"igtl-too-many-marks", "with these there would be {} marks; at most {} are kept"}}},
     {"the first client that sends something controls",
      "close that client, or go on reading",
      {{"igtl-another-client-controls", "another client controls; this one can only read"}}},

@@ -1,9 +1,12 @@
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "plugin/messages/provoked.h"
 #include "plugin/openigtlink/contents.h"
 #include "plugin/openigtlink/image.h"
+#include "plugin/openigtlink/marks.h"
 #include "plugin/openigtlink/receiver.h"
 #include "plugin/openigtlink/requests.h"
 
@@ -64,6 +67,11 @@ std::vector<Provoked> provoke_openigtlink() {
          igtl::internal::check_file({.client = 1, .from_this_machine = false, .message = {}}, "/scans/liver.nrrd");
        })},
       {"igtl-no-scan", said_when([] { igtl::internal::check_scan(false); })},
+      {"igtl-too-many-marks", said_when([] {
+         std::vector<igtl::Point> marks(igtl::most_marks + 1);
+         for (std::size_t n = 0; n < marks.size(); ++n) marks[n].position.x = static_cast<double>(n);
+         igtl::changed_marks({}, marks);
+       })},
       {"igtl-part-of-an-image", said_when([] { igtl::image_of(labels_with(61, 1)); })},
   };
 }

@@ -13,6 +13,7 @@
 #include "device/safety/safety_filter.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/messages/tell.h"
+#include "plugin/openigtlink/marks.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/say.h"
 #include "plugin/report/held_boundary.h"
@@ -50,8 +51,13 @@ StateInWords state_of_session(const TickRecord& tick) {
 }
 
 Announcer::Announcer(const LiveSession& session, Server& server, Publisher& publisher, const Received& received,
-                     MakesMarks makes_marks)
-    : session_(session), server_(server), publisher_(publisher), received_(received), makes_marks_(makes_marks) {
+                     JobThreads& threads, MakesMarks makes_marks)
+    : session_(session),
+      server_(server),
+      publisher_(publisher),
+      received_(received),
+      makes_marks_(makes_marks),
+      shapes_(threads) {
   follow_session();
   announce_marks();
 }
@@ -185,9 +191,17 @@ void Announcer::announce_marks() {
   offer("POINT", marks_name, content_of(marks_), 0, true);
 }
 
-/// Neither that of a mark that is there nor that of one made before.
+void Announcer::merge_marks(const std::vector<Point>& sent) {
+  std::vector<Point> marks = marks_;
+  for (const Point& point : changed_marks(marks_, sent)) {
+    const auto known = std::ranges::find(marks, point.name, &Point::name);
+    (known == marks.end() ? marks.emplace_back() : *known) = point;
+  }
+  set_marks(marks);
+}
+
 std::string Announcer::free_name() const {
-  Marks all = felt_;
+  Marks all;
   for (const Point& mark : marks_) all.points.push_back({.name = mark.name});
   return free_mark_name(all);
 }
@@ -208,11 +222,9 @@ void Announcer::follow_marks() {
         {.tick = tick, .time_s = tick.time_s, .proxy_mm = proxy, .shares = shares, .scene = session_.scene()});
     const auto* const mark = made ? std::get_if<FeltMark>(&*made) : nullptr;
     if (mark == nullptr) continue;
-    FeltMark& kept = felt_.points.emplace_back(*mark);
-    kept.name = free_name();
-    marks_.push_back({.name = kept.name,
-                      .group = kept.boundary,
-                      .position = ras_of(kept.position_mm),
+    marks_.push_back({.name = free_name(),
+                      .group = mark->boundary,
+                      .position = ras_of(mark->position_mm),
                       .diameter = mark_diameter_mm,
                       .owner = program_name});
     announce_marks();
@@ -220,10 +232,10 @@ void Announcer::follow_marks() {
 }
 
 void Announcer::announce_shapes() {
-  if (shapes_.valid()) {
-    if (shapes_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (shapes_.is_busy()) {
+    if (!shapes_.is_ready()) return;
     std::map<std::string, std::size_t> sent;
-    for (Shape& shape : shapes_.get()) {
+    for (Shape& shape : shapes_.take()) {
       const std::string name = shape.type + " " + shape.name;
       const std::string_view bytes(reinterpret_cast<const char*>(shape.content.data()), shape.content.size());
       const std::size_t hash = sent[name] = std::hash<std::string_view>()(bytes);
@@ -238,8 +250,9 @@ void Announcer::announce_shapes() {
   }
   if (!shapes_wanted_ || Clock::now() < *shapes_wanted_) return;
   shapes_wanted_.reset();
-  shapes_ = std::async(std::launch::async,
-                       [felt = session_.felt(), scene = session_.scene()] { return shapes_of(felt, scene); });
+  shapes_.start([felt = session_.felt(), scene = session_.scene()](const io::Progress& progress) {
+    return shapes_of(felt, scene, progress);
+  });
 }
 
 }  // namespace palpate::plugin::igtl

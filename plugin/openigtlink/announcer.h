@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +13,7 @@
 
 #include "plugin/app/live_session.h"
 #include "plugin/openigtlink/contents.h"
+#include "plugin/openigtlink/job.h"
 #include "plugin/openigtlink/publisher.h"
 #include "plugin/openigtlink/received.h"
 #include "plugin/openigtlink/shapes.h"
@@ -30,7 +30,7 @@ class Announcer {
   enum class MakesMarks { yes, no };
   /// The arguments must outlive it.
   Announcer(const LiveSession& session, Server& server, Publisher& publisher, const Received& received,
-            MakesMarks makes_marks = MakesMarks::yes);
+            JobThreads& threads, MakesMarks makes_marks = MakesMarks::yes);
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
   ~Announcer() = default;
@@ -39,6 +39,8 @@ class Announcer {
   void look();
   /// Replaces all marks.
   void set_marks(const std::vector<Point>& marks);
+  /// Adds and moves marks as a client's list says (changed_marks()). Throws as that does.
+  void merge_marks(const std::vector<Point>& sent);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -68,9 +70,8 @@ class Announcer {
   FeltWorkspace workspace_;
   MarkPresses presses_;
   std::uint64_t next_tick_ = 0;
-  Marks felt_;                // made with the stylus
-  std::vector<Point> marks_;  // all marks as sent
-  std::future<std::vector<Shape>> shapes_;
+  std::vector<Point> marks_;  // as sent
+  Job<std::vector<Shape>> shapes_;
   std::optional<Clock::time_point>
       shapes_wanted_;  // time at which shapes will be sent: while a scene is being tuned they change often
   std::map<std::string, std::size_t> shapes_sent_;  // hash of the bytes, by type and name

@@ -1,8 +1,8 @@
 #include "plugin/openigtlink/requests.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "io/errors.h"
 #include "io/structures/structure.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/messages/tell.h"
@@ -36,8 +36,8 @@ modes::Scene with_boundaries(modes::Scene scene, const std::vector<io::Structure
 
 /// The same for a label map: references to the previous map become references to the new one.
 modes::Scene with_map(modes::Scene scene, const std::string& name, const std::filesystem::path& before,
-                      const std::filesystem::path& file) {
-  std::vector<io::Structure> structures = io::find_structures(std::vector{file}).structures;
+                      const std::filesystem::path& file, const io::Progress& progress) {
+  std::vector<io::Structure> structures = io::find_structures(std::vector{file}, progress).structures;
   if (std::ranges::none_of(structures, [](const io::Structure& one) { return one.unfit.empty(); })) {
     throw Refusal(say("igtl-no-labels", name));
   }
@@ -77,8 +77,18 @@ void internal::check_scan(bool is_open) {
   if (!is_open) throw Refusal(say("igtl-no-scan"));
 }
 
-Requests::Requests(const LiveSession& session, Server& server, Received& received, Changes changes)
-    : session_(session), server_(server), received_(received), changes_(std::move(changes)) {
+modes::Scene tightened(modes::Scene scene, const modes::Limits& limits, double stiffness_n_per_m) {
+  modes::Limits& own = scene.limits;
+  own.force_n = std::min(own.force_n, limits.force_n);
+  own.slew_n_per_ms = std::min(own.slew_n_per_ms, limits.slew_n_per_ms);
+  own.ramp_s = std::max(own.ramp_s, limits.ramp_s);
+  own.speed_m_per_s = std::min(own.speed_m_per_s, limits.speed_m_per_s);
+  scene.stiffness_n_per_m = std::min(scene.stiffness_n_per_m, stiffness_n_per_m);
+  return scene;
+}
+
+Requests::Requests(const LiveSession& session, Server& server, Received& received, JobThreads& threads, Changes changes)
+    : session_(session), server_(server), received_(received), changes_(std::move(changes)), change_(threads) {
   keep_own_limits();
 }
 
@@ -90,11 +100,12 @@ void Requests::keep_own_limits() {
 }
 
 void Requests::look() {
+  if (changes_.look) changes_.look();
   keep_own_limits();
-  if (change_.valid()) {
-    if (change_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (change_.is_busy()) {
+    if (!change_.is_ready() || (changes_.is_settled && !changes_.is_settled())) return;
     try {
-      finish(change_.get());
+      finish(change_.take());
     } catch (const std::exception& error) {
       refuse(asked_->client, error);
     }
@@ -105,12 +116,12 @@ void Requests::look() {
       waiting_.push_back(std::make_shared<const Server::Request>(std::move(request)));
     }
   }
-  while (!waiting_.empty() && !change_.valid()) {
+  while (!waiting_.empty() && !change_.is_busy()) {
     asked_ = std::move(waiting_.front());
     waiting_.pop_front();
     begin();
   }
-  if (!change_.valid()) asked_.reset();  // its bytes are free for others
+  if (!change_.is_busy()) asked_.reset();  // its bytes are free for others
 }
 
 void Requests::begin() {
@@ -119,7 +130,8 @@ void Requests::begin() {
       changes_.set_marks(points_of(asked_->message.content));
     } else if (const Prepare work = work_for(asked_)) {
       begun_on_ = session_.plan();
-      change_ = std::async(std::launch::async, work);
+      begun_scene_ = modes::to_json(session_.scene());
+      change_.start(work);
     }
   } catch (const std::exception& error) {
     refuse(asked_->client, error);
@@ -135,11 +147,13 @@ Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request
   if (message.device != folder_name) internal::check_scan(base.scan != nullptr);
   if (message.type == "IMAGE") {
     const std::filesystem::path before = received_.file_of(message.device), file = received_.fresh_file(message.device);
-    return [base, before, file, asked] {
+    return [base, before, file, asked](const io::Progress& progress) {
       try {
         write_nrrd(image_of(asked->message.content), file);
-        const modes::Scene scene = with_map(base.scene(), asked->message.device, before, file);
-        return Change{.scene = scene, .prepared = base.prepared(scene), .map = asked->message.device, .file = file};
+        const modes::Scene scene = with_map(base.scene(), asked->message.device, before, file, progress);
+        Change change{.scene = scene, .prepared = base.prepared(scene), .map = asked->message.device, .file = file};
+        if (!progress(1)) throw io::Cancelled();
+        return change;
       } catch (...) {
         remove_file(file);
         throw;
@@ -150,11 +164,13 @@ Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request
   if (message.device == scene_name) {
     const modes::Scene named = received_.with_files(modes::scene_from_json(text, scene_name));
     internal::check_files(request, named, base.scene());
-    const modes::Scene scene = drawn_down(named, request.client);
+    const modes::Scene scene = drawn_down(in_own_workspace(named, request.client), request.client);
     // A client that sends its copy whenever it changes also sends back what it received; as a change this would never
     // end.
     if (modes::to_json(scene) == modes::to_json(base.scene())) return {};
-    return [base, scene] { return Change{.scene = scene, .prepared = base.prepared(scene)}; };
+    return [base, scene](const io::Progress& /*progress*/) {
+      return Change{.scene = scene, .prepared = base.prepared(scene)};
+    };
   }
   internal::check_file(request, text);
   if (message.device == folder_name && changes_.open) {
@@ -162,24 +178,31 @@ Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request
     return {};
   }
   if (message.device == folder_name) {
-    return [base, text, load = changes_.load] {
-      const LoadedScan scan = load(text);
+    return [base, text, load = changes_.load](const io::Progress& progress) {
+      const LoadedScan scan = load(text, progress);
       return Change{
           .scene = base.scene(), .scan = scan, .prepared = prepare(base.scene(), scan.volume, base.half_extent_m)};
     };
   }
-  return [base, text] {
-    const auto structures = io::find_structures(std::vector<std::filesystem::path>{text}).structures;
+  return [base, text](const io::Progress& progress) {
+    const auto structures = io::find_structures(std::vector<std::filesystem::path>{text}, progress).structures;
     if (structures.empty()) throw Refusal(say("igtl-no-labels", text));
     const modes::Scene scene = with_boundaries(base.scene(), structures);
     return Change{.scene = scene, .prepared = base.prepared(scene)};
   };
 }
 
+/// The owner has changed scene or scan while it was prepared. A whole scene of before would undo that.
+void Requests::begin_again() {
+  const bool is_scene = asked_->message.type == "STRING" && asked_->message.device == scene_name;
+  if (is_scene && modes::to_json(session_.scene()) != begun_scene_) throw Refusal(say("igtl-scene-is-older"));
+  begin();
+}
+
 void Requests::finish(const Change& change) {
-  if (begun_on_ != session_.plan()) {  // the owner has changed scene or scan while this was prepared
+  if (begun_on_ != session_.plan()) {
     remove_file(change.file);
-    return begin();
+    return begin_again();
   }
   const modes::Scene scene = drawn_down(change.scene, asked_->client);
   try {
@@ -196,20 +219,24 @@ void Requests::finish(const Change& change) {
   plan_ = session_.plan();
 }
 
-modes::Scene Requests::drawn_down(modes::Scene scene, std::uint64_t client) {
-  modes::Limits& asked = scene.limits;
-  const modes::Limits limits{.force_n = std::min(asked.force_n, limits_.force_n),
-                             .slew_n_per_ms = std::min(asked.slew_n_per_ms, limits_.slew_n_per_ms),
-                             .ramp_s = std::max(asked.ramp_s, limits_.ramp_s),
-                             .speed_m_per_s = std::min(asked.speed_m_per_s, limits_.speed_m_per_s)};
-  const double stiffness = std::min(scene.stiffness_n_per_m, stiffness_n_per_m_);
+modes::Scene Requests::drawn_down(const modes::Scene& scene, std::uint64_t client) {
+  modes::Scene tight = tightened(scene, limits_, stiffness_n_per_m_);
+  const modes::Limits &limits = tight.limits, &asked = scene.limits;
   const bool same = limits.force_n == asked.force_n && limits.slew_n_per_ms == asked.slew_n_per_ms &&
                     limits.ramp_s == asked.ramp_s && limits.speed_m_per_s == asked.speed_m_per_s &&
-                    stiffness == scene.stiffness_n_per_m;
+                    tight.stiffness_n_per_m == scene.stiffness_n_per_m;
   if (!same) answer(client, Status::Code::configuration_error, "drawn down", say("igtl-limits-stay"));
-  asked = limits;
-  scene.stiffness_n_per_m = stiffness;
-  return scene;
+  return tight;
+}
+
+modes::Scene Requests::in_own_workspace(const modes::Scene& scene, std::uint64_t client) {
+  if (!changes_.keeps_workspace) return scene;
+  modes::Scene kept = scene;
+  kept.workspace = session_.scene().workspace;
+  if (modes::to_json(kept) != modes::to_json(scene)) {
+    answer(client, Status::Code::configuration_error, "workspace stays", say("igtl-workspace-stays"));
+  }
+  return kept;
 }
 
 void Requests::answer(std::uint64_t client, Status::Code code, const char* name, const Text& text) {

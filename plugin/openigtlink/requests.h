@@ -2,12 +2,12 @@
 
 /// Carries out the requests of clients: another scene, folder or structures, marks, a label map. For the controlling
 /// thread. Slow parts (reading, distances) are prepared in another thread, so that the heartbeat continues. A request
-/// changes the force along the ramp. It can neither turn the force on nor raise a limit.
+/// changes the force along the ramp. It can neither turn the force on nor raise a limit, and does not undo what the
+/// owner does while it is prepared.
 
 #include <deque>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +15,7 @@
 
 #include "plugin/app/live_session.h"
 #include "plugin/openigtlink/contents.h"
+#include "plugin/openigtlink/job.h"
 #include "plugin/openigtlink/received.h"
 #include "plugin/openigtlink/server.h"
 
@@ -25,8 +26,8 @@ struct LoadedScan {
   std::shared_ptr<const io::Volume> volume;
   ScanFrame frame;
 };
-/// Throws errors of loading. Called in another thread.
-using LoadScan = std::function<LoadedScan(const std::string& folder)>;
+/// Throws errors of loading, and io::Cancelled. Called in another thread.
+using LoadScan = std::function<LoadedScan(const std::string& folder, const io::Progress& progress)>;
 
 /// The owner's functions to change the session. They are called by the controlling thread, and throw the reason if a
 /// change is impossible.
@@ -37,7 +38,17 @@ struct Changes {
   std::function<void(const std::vector<Point>& marks)> set_marks;
   LoadScan load;                                          ///< for a folder, in another thread;
   std::function<void(const std::string& folder)> open{};  ///< or this instead, if it is set
+  /// Whether the session's scene is the owner's latest. If a change of the owner is still on its way, requests wait.
+  /// Always, if it is empty.
+  std::function<bool()> is_settled{};
+  std::function<void()> look{};  ///< called at each Requests::look()
+  /// Whether a client's scene is felt with the session's own workspace: another one would move an armed stylus through
+  /// the patient.
+  bool keeps_workspace = false;
 };
+
+/// The scene with limits and stiffness that are not looser than these.
+modes::Scene tightened(modes::Scene scene, const modes::Limits& limits, double stiffness_n_per_m);
 
 namespace internal {
 
@@ -57,7 +68,7 @@ class Requests {
  public:
   /// The arguments must outlive it. No request can raise the limits and the stiffness of the latest scene that did not
   /// come from a request.
-  Requests(const LiveSession& session, Server& server, Received& received, Changes changes);
+  Requests(const LiveSession& session, Server& server, Received& received, JobThreads& threads, Changes changes);
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
   ~Requests() = default;
@@ -74,16 +85,18 @@ class Requests {
     std::string map = {};                           ///< name of the label map, if the request is one
     std::filesystem::path file = {};                ///< and its present file
   };
-  using Prepare = std::function<Change()>;
+  using Prepare = Job<Change>::Work;
 
   void begin();
   /// Works on copies, because the session continues meanwhile. Empty if nothing changes.
   Prepare work_for(const std::shared_ptr<const Server::Request>& asked);
   void finish(const Change& change);
+  void begin_again();
   void keep_own_limits();
   void answer(std::uint64_t client, Status::Code code, const char* name, const Text& text);
   void refuse(std::uint64_t client, const std::exception& error);
-  modes::Scene drawn_down(modes::Scene scene, std::uint64_t client);
+  modes::Scene drawn_down(const modes::Scene& scene, std::uint64_t client);
+  modes::Scene in_own_workspace(const modes::Scene& scene, std::uint64_t client);
 
   const LiveSession& session_;
   Server& server_;
@@ -96,7 +109,8 @@ class Requests {
   std::deque<std::shared_ptr<const Server::Request>> waiting_;
   std::shared_ptr<const Server::Request> asked_;  // the latest one begun
   std::shared_ptr<const modes::Plan> begun_on_;   // of the scene that it changes: every scene has its own plan
-  std::future<Change> change_;
+  std::string begun_scene_;                       // that scene, as text
+  Job<Change> change_;
   std::string last_told_;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin/openigtlink/marks.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/requests.h"
 #include "plugin/openigtlink/surface.h"
@@ -230,11 +231,40 @@ TEST(OpenIgtRequests, AFeltMarkHasANameOfItsOwn) {
   press();
   ASSERT_TRUE(comes(4));
   EXPECT_EQ(got[3].name, "Mark 4");
-  client.send({.type = "POINT", .device = marks_name, .content = content_of(std::vector<Point>())});
-  ASSERT_TRUE(comes(0));
-  press();
-  ASSERT_TRUE(comes(1));
-  EXPECT_EQ(got[0].name, "Mark 1") << "the client's own is gone; those that were felt keep their names";
+}
+
+/// A list may be older than the last press: what it leaves out stays.
+TEST(OpenIgtRequests, AnOlderListOfMarksRemovesNoneThatWasPressed) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  std::vector<Point> got;
+  const auto comes = [&](const auto& holds) {
+    return shared.comes([&] {
+      if (const auto message = client.next("POINT", marks_name, 20)) got = points_of(message->content);
+      return holds();
+    });
+  };
+  const auto send = [&](const std::vector<Point>& marks) {
+    client.send({.type = "POINT", .device = marks_name, .content = content_of(marks)});
+  };
+  shared.session.press(mark_button);
+  shared.look_for(std::chrono::milliseconds(50));
+  shared.session.press(0);
+  ASSERT_TRUE(comes([&] { return got.size() == 1; }));
+  EXPECT_EQ(got[0].name, "Mark 1");
+  send({{.name = "vessel", .position = {1, 2, 3}}});
+  ASSERT_TRUE(comes([&] { return got.size() == 2; }));
+  EXPECT_EQ(got[0].name, "Mark 1");
+  EXPECT_EQ(got[1].name, "vessel");
+  send({{.name = "vessel", .position = {4, 5, 6}}, {.name = "", .position = {7, 8, 9}}});
+  ASSERT_TRUE(comes([&] { return got.size() == 3; }));
+  EXPECT_EQ(got[1].position, glm::dvec3(4, 5, 6)) << "moved";
+  EXPECT_EQ(got[2].name, "Mark 2");
+  std::vector<Point> too_many(most_marks);
+  for (std::size_t n = 0; n < most_marks; ++n) too_many[n].name = "m" + std::to_string(n);
+  send(too_many);
+  EXPECT_EQ(text_of_status(shared, client, "refused"),
+            "refused: with these there would be 1027 marks; at most 1024 are kept");
 }
 
 TEST(OpenIgtRequests, AMapThatCannotBeKeptForReplayIsTold) {

@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <future>
+#include <memory>
 #include <string>
+#include <thread>
 
+#include "io/errors.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/requests.h"
 #include "plugin/openigtlink/testing/asked_session.h"
@@ -90,6 +93,58 @@ TEST(OpenIgtRequests, WhatTheOwnerDoesMeanwhileStays) {
   EXPECT_EQ(loads, 2) << "prepared again, of the owner's scene";
   EXPECT_EQ(shared.session.scene().name, "the owner's");
   EXPECT_EQ(shared.session.scene().limits.force_n, 1);
+}
+
+/// It is whole: taken later, it would undo what the owner has changed since.
+TEST(OpenIgtRequests, ASceneThatIsOlderThanTheOwnersIsRefused) {
+  SharedSession shared;
+  TestClient client(shared.server.port());
+  modes::Scene theirs = shared.session.scene(), own = theirs;
+  theirs.name = "a client's";
+  own.name = "the owner's";
+  client.send_text(scene_name, modes::to_json(theirs));
+  for (int n = 0; n < 10'000 && shared.server.counts().taken == 0; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(shared.server.counts().taken, 1U);
+  shared.sharing->look();  // it begins to be prepared
+  shared.session.set_scene(own);
+  EXPECT_EQ(testing::text_of_status(shared, client, "refused"),
+            "refused: the scene was changed at the stylus while this one was being prepared");
+  EXPECT_EQ(shared.session.scene().name, "the owner's");
+  // What is sent after it counts, and another frame of the scan is no change of the scene.
+  client.send_text(scene_name, modes::to_json(theirs));
+  for (int n = 0; n < 10'000 && shared.server.counts().taken == 1; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  shared.sharing->look();
+  shared.session.set_scan(testing::ball_of_tissue());
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scene().name == "a client's"; }));
+}
+
+/// The panel's thread would miss its heartbeat.
+TEST(OpenIgtRequests, WhatIsBeingPreparedAtTheEndIsCancelledAndNotWaitedFor) {
+  std::promise<void> begun, let_go;
+  auto until = let_go.get_future().share();
+  std::atomic<bool> was_cancelled{false};
+  SharedSession shared;
+  shared.sharing.reset();
+  shared.sharing = std::make_unique<Sharing>(
+      shared.session, shared.server, shared.received, shared.threads,
+      changes_of(shared.session, [&](const std::string&, const io::Progress& progress) -> LoadedScan {
+        begun.set_value();
+        until.wait();
+        was_cancelled = !progress(0.5);
+        throw io::Cancelled();
+      }));
+  TestClient client(shared.server.port());
+  client.send_text(folder_name, "/scans/slow");
+  auto has_begun = begun.get_future();
+  ASSERT_TRUE(shared.comes([&] { return has_begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  shared.sharing.reset();  // returns
+  let_go.set_value();
+  for (int n = 0; n < 10'000 && !was_cancelled; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(was_cancelled);
 }
 
 TEST(OpenIgtRequests, FilesAreNamedByClientsOfThisMachineAlone) {

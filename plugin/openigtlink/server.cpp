@@ -15,12 +15,13 @@
 #include <thread>
 
 #include "plugin/openigtlink/image.h"
+#include "plugin/openigtlink/marks.h"
 #include "plugin/openigtlink/names.h"
 
 namespace palpate::plugin::igtl {
 namespace {
 
-constexpr std::size_t room_for_metadata = 65536, longest_query = 4096, most_points = 1024, most_requests = 16;
+constexpr std::size_t room_for_metadata = 65536, longest_query = 4096, most_requests = 16;
 constexpr int send_buffer = 1 << 16;  // bytes: what a slow client gets late
 
 bool is_loopback(const sockaddr_storage& address) {
@@ -182,7 +183,7 @@ std::size_t Server::wanted(Client& client, const Header& header) {
   if (is_query(type)) return longest_query;
   std::size_t most = 0;
   if (type == "STRING" && is_request(header.device)) most = longest_string + 4 + room_for_metadata;
-  if (type == "POINT" && header.device == marks_name) most = most_points * point_size + room_for_metadata;
+  if (type == "POINT" && header.device == marks_name) most = most_marks * point_size + room_for_metadata;
   if (type == "IMAGE") most = largest_image + room_for_metadata;
   if (most == 0) return 0;
   if (controls_ == 0) controls_ = client.id();

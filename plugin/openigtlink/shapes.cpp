@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/errors.h"
 #include "io/structures/label_image.h"
 #include "modes/scene/met_values.h"
 #include "plugin/openigtlink/contents.h"
@@ -17,6 +18,10 @@ namespace palpate::plugin::igtl {
 namespace {
 
 constexpr double least_part = 0.05;  // of a boundary's strength: less is not sent
+
+void check_shapes_wanted(const io::Progress& progress) {
+  if (progress && !progress(0)) throw io::Cancelled();
+}
 
 /// Shortened to the length of a device's name, at the end of a character, and made unique by a number.
 std::string free_name(const std::vector<Shape>& shapes, const char* type, std::string name) {
@@ -56,10 +61,10 @@ io::StructureBox box_of(const io::DistanceField& field) {
 }
 
 void add_labels(std::vector<Shape>& shapes, const std::string& name, const io::DistanceField& field,
-                const io::Geometry& scan) {
+                const io::Geometry& scan, const io::Progress& progress) {
   if (!scan.uniform) return;
   const io::LabelImage labels = io::sample_labels(
-      {.name = name}, scan, [&](const io::Vec3& at) { return field.sample(at).mm; }, box_of(field));
+      {.name = name}, scan, [&](const io::Vec3& at) { return field.sample(at).mm; }, box_of(field), progress);
   const Image image{.number = Image::Number::u8,
                     .size = scan.dimensions,
                     .along = {scan.spacing_i * scan.direction_i, scan.spacing_j * scan.direction_j, scan.step},
@@ -91,25 +96,28 @@ void append_surface(Surface& surface, const Surface& more) {
 
 }  // namespace
 
-std::vector<Shape> shapes_of(const PreparedScene& felt, const modes::Scene& scene) {
+std::vector<Shape> shapes_of(const PreparedScene& felt, const modes::Scene& scene, const io::Progress& progress) {
   std::vector<Shape> shapes;
   if (!felt.plan || !felt.volume) return shapes;
   for (std::size_t n = 0; n < felt.structures.size(); ++n) {
     const io::DistanceField& field = *felt.structures[n].distance;
     const auto distance = [&](const glm::dvec3& place) {
+      check_shapes_wanted(progress);
       const io::Distance there = field.sample(place);
       return SurfaceDistance{there.mm, there.gradient};
     };
     const std::string& name = scene.structures[felt.plan->structures[n]].name;
     add_surface(shapes, name, isosurface(distance, bounding_box(felt.volume->geometry)));
-    if (!felt.structures[n].edits.empty()) add_labels(shapes, name, field, felt.volume->geometry);
+    if (!felt.structures[n].edits.empty()) add_labels(shapes, name, field, felt.volume->geometry, progress);
   }
   for (const modes::ActiveMode& active : felt.plan->modes) {
     if (!active.holds || active.scene_index >= scene.modes.size()) continue;
     const modes::Mode& mode = scene.modes[active.scene_index];
     Surface surface;
     for (const double value : modes::met_values(mode, active.side)) {
+      check_shapes_wanted(progress);
       Surface met = isosurface(*felt.volume, value);
+      check_shapes_wanted(progress);
       keep_felt(met, value, active.strength, *felt.source);
       append_surface(surface, met);
     }

@@ -11,6 +11,7 @@
 #include <map>
 #include <random>
 
+#include "io/errors.h"
 #include "modes/scene/met_values.h"
 #include "modes/scene/scene_json.h"
 #include "plugin/openigtlink/contents.h"
@@ -19,6 +20,7 @@
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/surface.h"
 #include "plugin/openigtlink/testing/shared_session.h"
+#include "plugin/testing/test_files.h"
 #include "testdata/scan.h"
 
 namespace palpate::plugin::igtl {
@@ -174,6 +176,25 @@ TEST(Shapes, NamesAreCutAtALetterAndToldApart) {
   EXPECT_TRUE(find(shapes, "POLYDATA", hollow.substr(0, 19))) << "its twentieth byte begins a letter of two";
   EXPECT_TRUE(find(shapes, "POLYDATA", hollow.substr(0, 17) + " 2"));
   EXPECT_TRUE(find(shapes, "POLYDATA", hollow.substr(0, 17) + " 3"));
+}
+
+/// A structure is asked at each place that is looked at, a boundary of the scan a few times.
+TEST(Shapes, AreNotMadeForNobody) {
+  const auto asked_before_it_ends = [](const modes::Scene& scene, int most) {
+    int asked = 0;
+    EXPECT_THROW(shapes_of(prepare(scene, testing::ball_of_tissue(), glm::dvec3(0.08)), scene,
+                           [&](double) { return ++asked < most; }),
+                 io::Cancelled);
+    return asked;
+  };
+  modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+  EXPECT_EQ(asked_before_it_ends(scene, 2), 2);
+  const auto file = plugin::testing::fresh_path("ball.nrrd");
+  write_nrrd(image_of(testing::ball_of_labels("", glm::dvec3(0), 10).content), file);
+  scene.structures = {{.name = "ball", .file = file.string(), .segment_number = 1}};
+  scene.modes = {{.type = "surface", .structure = "ball"}};
+  scene.modes.back().strength_n = modes::TransferFunction(0.5);
+  EXPECT_EQ(asked_before_it_ends(scene, 1000), 1000);
 }
 
 /// What a scene's change leaves as it was is not sent again.

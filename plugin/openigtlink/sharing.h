@@ -11,9 +11,9 @@ namespace palpate::plugin::igtl {
 
 class Sharing {
  public:
-  /// Session, server and maps must outlive it. The maps should live as long as the session, whose scene names their
-  /// files.
-  Sharing(const LiveSession& session, Server& server, Received& received, Changes changes,
+  /// Session, server, maps and threads must outlive it. The maps should live as long as the session, whose scene names
+  /// their files. Its destructor cancels what is being prepared, but does not wait for it: the threads do.
+  Sharing(const LiveSession& session, Server& server, Received& received, JobThreads& threads, Changes changes,
           Announcer::MakesMarks makes_marks = Announcer::MakesMarks::yes);
 
   void look();

@@ -1,6 +1,7 @@
 #include "plugin/recording/recording.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 
@@ -14,24 +15,44 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
+struct Source {
+  Handle file;
+  std::uintmax_t bytes = 0;  ///< of the whole file
+};
+
+/// Before memory is taken: a damaged file of a few kB may claim to hold any number of rows.
+void check_claim(const Source& source, hid_t data, const std::string& name, std::uintmax_t count, std::size_t size) {
+  constexpr std::uintmax_t most_packed = 1032;        // bytes that deflate makes of one
+  constexpr std::uintmax_t not_yet_stored = 1 << 24;  // a writer that died had set the length, but not written the rows
+  constexpr std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max();
+  const std::uintmax_t claimed = size > 0 && count > most / size ? most : count * size;
+  const std::uintmax_t stored = std::min<std::uintmax_t>(H5Dget_storage_size(data), source.bytes);
+  if (claimed > not_yet_stored && (claimed - not_yet_stored) / most_packed > stored) {
+    throw Refusal(say("claims-more-than-is-stored", name, claimed, stored));
+  }
+}
+
 template <typename Row>
-std::vector<Row> read_table(hid_t file, const char* name, const Handle& type) {
-  const Handle table(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find-what-a-recording-holds");
+std::vector<Row> read_table(const Source& source, const char* name, const Handle& type) {
+  const Handle table(H5Dopen2(source.file, name, H5P_DEFAULT), H5Dclose, "find-what-a-recording-holds");
   const Handle space(H5Dget_space(table), H5Sclose, "read-what-is-in-it");
-  std::vector<Row> rows(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
+  const auto count = static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space)));
+  check_claim(source, table, name, count, sizeof(Row));
+  std::vector<Row> rows(count);
   if (!rows.empty()) {
     check(H5Dread(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), "read-what-is-in-it");
   }
   return rows;
 }
 
-std::string read_text(hid_t file, const char* name) {
-  const Handle data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "find-what-a-recording-holds");
+std::string read_text(const Source& source, const char* name) {
+  const Handle data(H5Dopen2(source.file, name, H5P_DEFAULT), H5Dclose, "find-what-a-recording-holds");
   const Handle type(H5Dget_type(data), H5Tclose, "read-what-is-in-it");
   const Handle space(H5Dget_space(data), H5Sclose, "read-what-is-in-it");
   // One text of a known length, as ours are: H5Dread() writes as many as there are.
   const bool is_one = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
   check(is_one && H5Sget_simple_extent_npoints(space) == 1 ? 0 : -1, "read-what-is-in-it");
+  check_claim(source, data, name, H5Tget_size(type), 1);
   std::string text(H5Tget_size(type), '\0');
   check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read-what-is-in-it");
   text.resize(std::min(text.size(), text.find('\0')));
@@ -99,7 +120,7 @@ Recording read_recording(const std::filesystem::path& file) {
   hdf5::silence();
   try {
     Recording recording;
-    const Handle input = open(file, recording.complete);
+    const Source input{open(file, recording.complete), std::filesystem::file_size(file)};
     recording.header.palpate_version = read_text(input, "palpate_version");
     recording.header.device = read_text(input, "device");
     recording.header.scan_hash = read_text(input, "scan_hash");
@@ -108,7 +129,7 @@ Recording read_recording(const std::filesystem::path& file) {
     // Ticks first: a writer may meanwhile add shares, which then belong to later ticks.
     recording.ticks = read_table<TickRecord>(input, "frames", tick_row_type());
     recording.shares = read_table<PrimitiveRecord>(input, "shares", share_row_type());
-    if (H5Lexists(input, "known_to_mm", H5P_DEFAULT) > 0) {
+    if (H5Lexists(input.file, "known_to_mm", H5P_DEFAULT) > 0) {
       recording.known_to_mm = read_table<double>(input, "known_to_mm", known_to_row_type());
     }
     keep_whole_ticks(recording);

@@ -134,6 +134,58 @@ TEST(RecordingReading, WhatIsNoRecordingIsRefusedInWordsOfOurs) {
             "");
 }
 
+/// The table of a recording, made longer without rows.
+fs::path with_rows(const Recording& recording, const char* table, hsize_t rows) {
+  const auto file = fresh_path("long.h5");
+  write_recording(recording, file);
+  const hid_t output = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t data = H5Dopen2(output, table, H5P_DEFAULT);
+  EXPECT_GE(H5Dset_extent(data, &rows), 0);
+  H5Dclose(data);
+  H5Fclose(output);
+  return file;
+}
+
+/// A file of a few kB may claim to hold any number of rows: no memory is taken for them.
+TEST(RecordingReading, WhatClaimsToHoldMoreThanIsStoredIsRefused) {
+  constexpr std::size_t much = 1U << 26U;
+  const auto claims = [](const fs::path& file, const std::string& name, std::size_t bytes) {
+    return "cannot read the recording " + file.string() + ": " + name + " claims to hold " + std::to_string(bytes) +
+           " bytes, but only 0 are stored: the file is damaged";
+  };
+  for (const auto& [name, size] : {std::pair("frames", sizeof(TickRecord)),
+                                   {"shares", sizeof(PrimitiveRecord)},
+                                   {"known_to_mm", sizeof(double)},
+                                   {"events", sizeof(char)}}) {
+    const std::size_t rows = much / size;
+    const auto file = with_rows({}, name, rows);
+    EXPECT_LT(fs::file_size(file), 100'000U) << name;
+    EXPECT_EQ(why_unread(file), claims(file, name, rows * size));
+  }
+  const auto text = with_version([] {
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, much);
+    return std::pair(type, H5Screate(H5S_SCALAR));
+  });
+  EXPECT_EQ(why_unread(text), claims(text, "palpate_version", much));
+
+  Recording few;
+  few.ticks.resize(10);
+  EXPECT_EQ(read_recording(with_rows(few, "frames", 10)).ticks.size(), 10U);
+  const std::string said = why_unread(with_rows(few, "frames", much / sizeof(TickRecord)));
+  EXPECT_NE(said.find("frames claims to hold"), std::string::npos) << said;
+}
+
+/// Nothing that can be written is packed so well that it would be taken for a claim.
+TEST(RecordingReading, WhatIsPackedAsWellAsCanBeIsRead) {
+  Recording recording;
+  recording.scenes = {{.scene = std::string(std::size_t{1} << 25U, 'a'), .scan_hash = "h"}};
+  const auto file = fresh_path("packed_scene.h5");
+  write_recording(recording, file);
+  EXPECT_LT(fs::file_size(file), 1U << 20U);
+  EXPECT_TRUE(read_recording(file).header.scene == recording.scenes[0].scene);
+}
+
 /// Lines of older versions lack what came later; of other kinds there may be lines, too; and the last may be cut.
 TEST(RecordingReading, OlderEventsAreReadWithWhatWasTrueThen) {
   Recording recording;

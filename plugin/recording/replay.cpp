@@ -59,9 +59,20 @@ const Record& find_epoch(const std::vector<Record>& records, std::uint32_t epoch
   const auto found =
       std::find_if(records.begin(), records.end(), [&](const Record& record) { return record.epoch == epoch; });
   if (found == records.end()) {
-    throw Refusal(say("recording-lacks", what, epoch));
+    throw DamagedRecording(say("recording-lacks", what, epoch));
   }
   return *found;
+}
+
+/// Each epoch has its record, also one that was never taken: so they only ascend, and none is passed over unrecorded.
+/// Else the session would be asked to count through up to 2^32 of them.
+template <typename Record>
+void check_next(const std::vector<Record>& records, std::uint32_t epoch, std::uint32_t next, const char* what) {
+  const auto between = std::ranges::count_if(
+      records, [&](const Record& record) { return record.epoch > epoch && record.epoch <= next; });
+  if (next < epoch || next - epoch > between) {
+    throw DamagedRecording(say("recording-goes-on-from-to", what, epoch, next));
+  }
 }
 
 /// Infinite if one of the two is not a number: then no later difference is larger. A session only replays numbers.
@@ -110,6 +121,7 @@ void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
   if (tick.scene_epoch != scene_epoch) {
     // Some that were published were never taken; they have numbers, too.
     const Snapshot taken = snapshot(tick.scene_epoch);
+    check_next(scenes, scene_epoch, tick.scene_epoch, "scene");
     while (scene_epoch != tick.scene_epoch) scene_epoch = session->publish(taken);
   }
   if ((tick.commands & command::change_stylus) != 0) {
@@ -117,6 +129,7 @@ void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
                                     [&](const TickRecord& later) { return later.stylus_epoch != stylus_epoch; });
     // A stylus that the recording never reaches can be the previous one: no pose of it is read.
     const auto changed = stylus(taken == coming.end() ? stylus_epoch : taken->stylus_epoch);
+    if (taken != coming.end()) check_next(styluses, stylus_epoch, taken->stylus_epoch, "stylus");
     const std::uint32_t epoch = taken == coming.end() ? stylus_epoch + 1 : taken->stylus_epoch;
     while (stylus_epoch != epoch) stylus_epoch = session->change_stylus(changed);
   }

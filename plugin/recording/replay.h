@@ -10,6 +10,7 @@
 
 #include "plugin/recording/recording.h"
 #include "plugin/session/session.h"
+#include "solver/text/message.h"
 
 namespace palpate::plugin {
 
@@ -27,7 +28,14 @@ struct Replay {
   std::uint64_t after_gap = 0;  ///< ticks that cannot be replayed, because earlier ones were lost
 };
 
-/// Throws std::runtime_error if the recording has no scene or if an event is missing, and what the maker throws.
+/// The recording does not hold what its ticks name.
+class DamagedRecording : public Refusal {
+ public:
+  using Refusal::Refusal;
+};
+
+/// Throws DamagedRecording if a scene or stylus of a tick is missing, or if its epoch does not follow from the ones
+/// before; and what the maker throws.
 Replay replay(const Recording& recording, const SnapshotMaker& make_snapshot);
 
 /// Replays a recording in several files, one after the other.

@@ -136,25 +136,61 @@ TEST(ReplayParts, TellOfTheWholeWhatIsInAPart) {
   EXPECT_EQ(replayer.result().after_gap, 200U);
 }
 
+std::string unreplayable(const Recording& recording) {
+  try {
+    replay(recording, snapshot_again);
+    return "replayed";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
 /// What is missing is named.
 TEST(ReplayParts, NameWhatTheyLack) {
-  const auto refusal = [](Recording recording) -> std::string {
-    try {
-      replay(recording, snapshot_again);
-      return "replayed";
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-  };
   Recording recording = part_of(recorded_parts(), 0, 900);
-  EXPECT_EQ(refusal(recording), "replayed");
+  EXPECT_EQ(unreplayable(recording), "replayed");
   Recording lacks = recording;
   lacks.scenes.pop_back();
-  EXPECT_EQ(refusal(lacks), "the recording lacks its scene 1: the file is damaged, record anew");
+  EXPECT_EQ(unreplayable(lacks), "the recording lacks its scene 1: the file is damaged, record anew");
   lacks = recording;
   lacks.styluses.clear();
-  EXPECT_EQ(refusal(lacks), "the recording lacks its stylus 0: the file is damaged, record anew");
+  EXPECT_EQ(unreplayable(lacks), "the recording lacks its stylus 0: the file is damaged, record anew");
   EXPECT_EQ(replay({}, snapshot_again).ticks, 0U) << "of nothing, nothing";
+}
+
+/// The session would count through all numbers to the one that is named, up to 2^32 of them.
+TEST(ReplayParts, ASceneThatDoesNotFollowIsRefused) {
+  const Recording whole = part_of(recorded_parts(), 0, 900);
+  const auto with_scene = [&](std::uint32_t epoch) {
+    Recording changed = whole;
+    changed.scenes.at(1).epoch = epoch;
+    for (TickRecord& tick : changed.ticks) tick.scene_epoch *= epoch;
+    return changed;
+  };
+  EXPECT_EQ(unreplayable(with_scene(4'000'000'000)),
+            "the recording goes on from its scene 0 to 4000000000: the file is damaged, record anew");
+  Recording skips = with_scene(2);
+  EXPECT_EQ(unreplayable(skips), "the recording goes on from its scene 0 to 2: the file is damaged, record anew");
+  skips.scenes.push_back(whole.scenes.at(1));
+  EXPECT_EQ(unreplayable(skips), "replayed") << "the first was never taken";
+  Recording descends = whole;
+  ASSERT_EQ(descends.ticks.at(600).scene_epoch, 1U);
+  descends.ticks[600].scene_epoch = 0;
+  EXPECT_EQ(unreplayable(descends), "the recording goes on from its scene 1 to 0: the file is damaged, record anew");
+}
+
+TEST(ReplayParts, AStylusThatDoesNotFollowIsRefused) {
+  const Recording whole = part_of(recorded_parts(), 0, 900);
+  Recording far = whole;
+  far.styluses.at(1).epoch = 4'000'000'000;
+  for (TickRecord& tick : far.ticks) tick.stylus_epoch *= 4'000'000'000;
+  EXPECT_EQ(unreplayable(far),
+            "the recording goes on from its stylus 0 to 4000000000: the file is damaged, record anew");
+  Recording descends = whole;
+  ASSERT_EQ(descends.ticks.at(850).stylus_epoch, 1U);
+  descends.ticks[850].commands |= command::change_stylus;
+  descends.ticks[860].stylus_epoch = 0;
+  EXPECT_EQ(unreplayable(descends), "the recording goes on from its stylus 1 to 0: the file is damaged, record anew");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <stdexcept>
@@ -40,13 +41,15 @@ modes::Scene scene_in(const fs::path& study) {
   return scene;
 }
 
-/// Into the cube and out of it.
-Recording record(const fs::path& study, const fs::path& file) {
+/// Into the cube and out of it. `meanwhile`: between the reading of the structure and the recording.
+Recording record(
+    const fs::path& study, const fs::path& file, const std::function<void()>& meanwhile = [] {}) {
   const auto volume = testing::registered_scan();
   const modes::Scene scene = scene_in(study);
   const auto stylus = std::make_shared<device::SimulatedStylus>();
   const device::Specification specification = stylus->specification();
   const PreparedScene felt = prepare(scene, volume, specification.workspace_half_extent);
+  meanwhile();
   // The stylus' z points out of the screen: to the patient's front, -y.
   const std::vector<device::Waypoint> way{{.time = 0, .position = {0, 0, 0.005}},
                                           {.time = 0.6, .position = {0, 0, 0.005}},
@@ -94,6 +97,27 @@ TEST(RegisteredReplay, IsTheSameWhereTheRegistrationIsNot) {
   EXPECT_EQ(alone.different, 0U);
   testing::write_registration(elsewhere / "another.dcm");
   EXPECT_EQ(repeat(recording, elsewhere).different, 0U) << "though a registration there says otherwise";
+}
+
+/// Of a file that another program rewrote after it was read, the recording names what was felt.
+TEST(RegisteredReplay, IsOfTheStructureThatWasRead) {
+  const TestFolder folder;
+  const fs::path study = folder / "study", elsewhere = folder / "elsewhere";
+  testing::write_contours(study / "rt.dcm", "1.2", "7", "Doe^Jane");
+  testing::write_registration(study / "reg.dcm");
+  const Recording recording = record(study, folder / "felt.h5", [&] {
+    fs::create_directories(elsewhere);
+    fs::copy_file(study / "rt.dcm", elsewhere / "as_it_was.dcm");
+    testing::move_corner(study / "rt.dcm");
+  });
+  EXPECT_THAT(recording.scenes.at(0).scene, HasSubstr(hash_of_file(elsewhere / "as_it_was.dcm")));
+  EXPECT_EQ(repeat(recording, elsewhere).different, 0U);
+  try {
+    repeat(recording, study);
+    FAIL() << "was repeated with another outline";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the file that it was felt from is not here"));
+  }
 }
 
 TEST(RegisteredReplay, TellsWhichRegistrationItWas) {

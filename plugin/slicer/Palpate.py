@@ -89,7 +89,7 @@ class PalpateWidget(ScriptedLoadableModuleWidget):
                      lambda: self.nodes.send_segments(self._chosen(self.segmentation, "segmentation"),
                                                       self._chosen(self.volume, "volume")))
         self.marks = self._chooser(form, "Marks", "vtkMRMLMarkupsFiducialNode")
-        self._button(form, "Send these marks", "they take the place of Palpate's",
+        self._button(form, "Send these marks", "they are added to Palpate's; one of the same name is moved",
                      lambda: self.nodes.send_marks(self._chosen(self.marks, "list of points")))
         self.scene_text = qt.QPlainTextEdit()
         form.addRow("Scene", self.scene_text)

@@ -108,6 +108,7 @@ LoadedStructure load_drawn(const modes::SceneStructure& wanted, const io::Geomet
       if (const Text off = off_scan(drawn, *box, scan); !off.empty()) warnings.push_back(off);
     }
     return {.file = {},
+            .hash = {},
             .segment = {},
             .warnings = warnings,
             .registered = {},
@@ -148,14 +149,20 @@ std::size_t common_edits(const modes::SceneStructure& wanted, const LoadedStruct
   return static_cast<std::size_t>(std::ranges::mismatch(wanted.edits, known.edits).in1 - wanted.edits.begin());
 }
 
+/// Other programs may write a file while it is felt. Recordings name what was read.
+bool is_rewritten(const std::string& hash_now, const LoadedStructure& read) {
+  return is_known(hash_now) && hash_now != read.hash;
+}
+
 /// The loaded structure with the same outline and reach, and the most of the scene's edits; null: there is none.
 const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double reach_mm,
                                    const std::vector<LoadedStructure>& before) {
   const std::string file = std::filesystem::path(wanted.file).string(), segment = segment_of(wanted);
+  const std::string hash = before.empty() || modes::is_drawn(wanted) ? "" : hash_of_file(copy_of(file));
   const LoadedStructure* best = nullptr;
   for (const LoadedStructure& one : before) {
     const bool same = modes::is_drawn(wanted) ? one.file.empty() && one.edits.front() == wanted.edits.front()
-                                              : one.file == file && one.segment == segment;
+                                              : one.file == file && one.segment == segment && !is_rewritten(hash, one);
     if (!same || one.distance->reach_mm() != reach_mm) continue;
     if (best == nullptr || common_edits(wanted, one) > common_edits(wanted, *best)) best = &one;
   }
@@ -221,6 +228,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       edit(loaded.back(), wanted, scan);
       continue;
     }
+    const std::string hash = hash_of_file(copy_of(file));
     io::Structure structure = find_structure(wanted, file);
     keep_what_is_to_be_checked(structure);
     const std::optional<RegisteredStructure> registered = place(structure, wanted, volume, recorded, study);
@@ -228,8 +236,11 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
       if (const Text off = off_scan(structure, io::box_of(structure), volume.geometry); !off.empty()) {
         structure.warnings.push_back(off);
       }
-      loaded.push_back({file.string(), segment_of(wanted), structure.warnings, registered,
+      loaded.push_back({file.string(), hash, segment_of(wanted), structure.warnings, registered,
                         shared_distance(structure, volume.geometry, reach)});
+      if (hash_of_file(copy_of(file)) != hash) {
+        refuse(wanted, say("structure-rewritten-while-read", file.filename().string()));
+      }
       edit(loaded.back(), wanted, scan);
     } catch (const io::DicomError& error) {
       refuse(wanted, error.text());

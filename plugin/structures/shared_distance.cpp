@@ -1,7 +1,7 @@
 #include "plugin/structures/shared_distance.h"
 
-#include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -23,7 +23,7 @@ namespace {
 
 struct Kept {
   std::string file;
-  std::filesystem::file_time_type time;
+  std::optional<FileState> state;
   int number = 0;
   io::RigidMotion motion;
   io::Geometry scan;
@@ -54,11 +54,11 @@ std::shared_ptr<const io::DistanceField> find_drawn(const io::ContoursEdit& cont
 }
 
 template <typename Fits>
-std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, std::filesystem::file_time_type time,
+std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, const std::optional<FileState>& state,
                                               const io::Geometry& scan, const Fits& fits) {
   std::erase_if(kept, [](const Kept& one) { return one.distance.expired(); });
   for (const Kept& one : kept) {
-    if (one.file != structure.file.string() || one.time != time || one.number != structure.number ||
+    if (one.file != structure.file.string() || one.state != state || one.number != structure.number ||
         one.motion != structure.motion) {
       continue;
     }
@@ -71,19 +71,18 @@ std::shared_ptr<const io::DistanceField> find(const io::Structure& structure, st
 template <typename Fits>
 std::shared_ptr<const io::DistanceField> find_or_make(const io::Structure& structure, const io::Geometry& scan,
                                                       double reach_mm, const Fits& fits) {
-  std::error_code absent;
-  const auto time = std::filesystem::last_write_time(copy_of(structure.file), absent);
+  const std::optional<FileState> state = state_of_file(copy_of(structure.file));
   {
     const std::lock_guard lock(mutex);
-    if (auto found = find(structure, time, scan, fits)) return found;
+    if (auto found = find(structure, state, scan, fits)) return found;
   }
   io::DistanceOptions options;
   options.reach_mm = reach_mm;
   options.scan = &scan;
   auto made = io::load_distance(structure, options);
   const std::lock_guard lock(mutex);
-  if (auto found = find(structure, time, scan, fits)) return found;  // another thread made it meanwhile
-  kept.push_back({structure.file.string(), time, structure.number, structure.motion, scan, made});
+  if (auto found = find(structure, state, scan, fits)) return found;  // another thread made it meanwhile
+  kept.push_back({structure.file.string(), state, structure.number, structure.motion, scan, made});
   return made;
 }
 

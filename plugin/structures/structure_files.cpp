@@ -10,7 +10,6 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "io/structures/structure.h"
@@ -32,17 +31,20 @@ bool is_number(const std::string& extension) {
          std::all_of(extension.begin() + 1, extension.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+std::string unknown_hash() {
+  return std::string(digits, '0');
+}
+
 std::string read_and_hash(const std::filesystem::path& file) {
-  std::string unknown(digits, '0');
   std::ifstream input(file, std::ios::binary);
-  if (!input) return unknown;
+  if (!input) return unknown_hash();
   const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
   XXH3_64bits_reset(state.get());
   std::array<char, 1 << 16> part{};
   while (input.read(part.data(), part.size()) || input.gcount() > 0) {
     XXH3_64bits_update(state.get(), part.data(), static_cast<std::size_t>(input.gcount()));
   }
-  return input.bad() ? unknown : fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+  return input.bad() ? unknown_hash() : fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
 std::mutex fetched_mutex;
@@ -81,18 +83,28 @@ std::filesystem::path name_of_copy(const std::filesystem::path& here) {
   return here;
 }
 
+std::optional<FileState> state_of_file(const std::filesystem::path& file) {
+  std::error_code absent, no_size;
+  const FileState state{std::filesystem::last_write_time(file, absent), std::filesystem::file_size(file, no_size)};
+  return absent || no_size ? std::nullopt : std::optional(state);
+}
+
 std::string hash_of_file(const std::filesystem::path& file) {
   // A scene that is dragged while it is recorded is written down thirty times a second.
   static std::mutex mutex;
-  static std::map<std::tuple<std::string, std::filesystem::file_time_type, std::uintmax_t>, std::string> known;
-  std::error_code absent;
-  const auto time = std::filesystem::last_write_time(file, absent);
-  const auto size = absent ? 0 : std::filesystem::file_size(file, absent);
-  if (absent) return std::string(digits, '0');
+  static std::map<std::pair<std::string, FileState>, std::string> known;
+  const std::optional<FileState> state = state_of_file(file);
+  if (!state) return unknown_hash();
   const std::lock_guard lock(mutex);
-  std::string& hash = known[{file.string(), time, size}];
-  if (hash.empty()) hash = read_and_hash(file);
+  const std::pair key(file.string(), *state);
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  std::string hash = read_and_hash(file);
+  if (state_of_file(file) == state) known.emplace(key, hash);  // else it was written meanwhile
   return hash;
+}
+
+bool is_known(const std::string& hash) {
+  return is_hash(hash) && hash != unknown_hash();
 }
 
 modes::Scene without_paths(modes::Scene scene) {
@@ -105,8 +117,7 @@ modes::Scene without_paths(modes::Scene scene) {
 
 modes::Scene StructureFiles::with_paths(modes::Scene scene) {
   for (modes::SceneStructure& structure : scene.structures) {
-    const bool was_read = is_hash(structure.file) && structure.file != std::string(digits, '0');
-    if (!was_read) continue;
+    if (!is_known(structure.file)) continue;
     if (!std::exchange(looked_, true)) {
       for (const io::Structure& found : io::find_structures(places_).structures) {
         const bool known = std::any_of(by_hash_.begin(), by_hash_.end(),

@@ -3,8 +3,11 @@
 /// Names files of structures by a hash of their content. Recordings use these names, because a path may contain a
 /// patient's name.
 
+#include <compare>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +15,20 @@
 
 namespace palpate::plugin {
 
-/// 16 hexadecimal digits; all zero if the file cannot be read.
+/// 16 hexadecimal digits; all zero if the file cannot be read. A file is read again only if its time or size changed.
 std::string hash_of_file(const std::filesystem::path& file);
+/// Whether this is the hash of a file that could be read.
+bool is_known(const std::string& hash);
+
+/// Time and size of a file. Another program that writes the file changes them.
+struct FileState {
+  std::filesystem::file_time_type time;
+  std::uintmax_t size = 0;
+
+  auto operator<=>(const FileState&) const = default;
+};
+/// None if there is no such file.
+std::optional<FileState> state_of_file(const std::filesystem::path& file);
 
 /// The folder beside a recording with the structures that were felt and have no file of their own: label maps that came
 /// over the network. "a.h5.structures" for a.h5, a.h5.partial and a.h5.2.partial.

@@ -5,11 +5,14 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "io/testing/file_bytes.h"
 #include "io/testing/test_image.h"
 #include "io/volume.h"
 #include "modes/scene/scene.h"
@@ -49,6 +52,17 @@ inline void write_contours(const std::filesystem::path& file, const std::string&
     }
   };
   io::internal::write(image, file);
+}
+
+/// As another program rewrites such a file: the squares' corner at -10, -10 mm now lies at -16, -16 mm.
+inline void move_corner(const std::filesystem::path& file) {
+  std::string bytes = io::internal::bytes_of(file);
+  const std::string corner = "-10\\-10\\";
+  for (std::size_t at = 0; (at = bytes.find(corner, at)) != std::string::npos;)
+    bytes.replace(at, corner.size(), "-16\\-16\\");
+  const auto time = std::filesystem::last_write_time(file);
+  std::ofstream(file, std::ios::binary) << bytes;
+  std::filesystem::last_write_time(file, time + std::chrono::seconds(1));
 }
 
 /// From frame 1.2 to frame 1.1.

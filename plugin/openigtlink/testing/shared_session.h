@@ -40,11 +40,11 @@ struct SharedSession {
     session.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
     session.set_scan(ball_of_tissue(), scene);
     session.connect(stylus, start);
-    const auto load_it = [this](const std::string& folder) {
+    const auto load_it = [this](const std::string& folder, const io::Progress& /*progress*/) {
       if (!load) throw std::runtime_error("nothing at " + folder);
       return load(folder);
     };
-    sharing = std::make_unique<Sharing>(session, server, received, changes_of(session, load_it));
+    sharing = std::make_unique<Sharing>(session, server, received, threads, changes_of(session, load_it));
   }
   ~SharedSession() {
     sharing.reset();
@@ -83,6 +83,7 @@ struct SharedSession {
   std::shared_ptr<device::SimulatedStylus> stylus;
   LiveSession session;
   Received received;
+  JobThreads threads;
   std::unique_ptr<Sharing> sharing;
 };
 

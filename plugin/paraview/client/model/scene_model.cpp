@@ -67,6 +67,11 @@ bool SceneModel::propose(const modes::Scene& scene) {
   return true;
 }
 
+bool SceneModel::is_settled() const {
+  const std::string text = kept_.text(scene_key);
+  return !is_waiting() && !shown_before_ && (text.empty() || text == text_);
+}
+
 void SceneModel::follow_text() {
   const std::string text = kept_.text(scene_key);
   if (text != text_ && !text.empty()) make_ready(text);

@@ -50,6 +50,9 @@ class SceneModel : public QObject {
   void set_read(Read read) { read_ = std::move(read); }
   /// Whether a change waits.
   bool is_waiting() const { return reading_ || !waiting_.empty(); }
+  /// Whether the scene is the user's latest: no change waits, no scene of the pipeline is being prepared, and no
+  /// earlier one is shown instead (show_before()).
+  bool is_settled() const;
   /// Another scan: drops the waiting changes, which were meant for the previous one, except the pipeline's scene.
   void drop_waiting();
   /// `clean` removes the parts of a scene in the pipeline that do not belong there, and returns whether it removed any.

@@ -53,6 +53,17 @@ TEST_F(SceneModelBefore, ItIsShownAndOfferedAndThePipelineKeepsThePresentOne) {
   EXPECT_EQ(kept.at, 2U);
 }
 
+TEST_F(SceneModelBefore, TheModelIsNotSettledWhileItIsShown) {
+  EXPECT_TRUE(model.is_settled());
+  model.show_before();
+  EXPECT_FALSE(model.is_waiting());
+  EXPECT_FALSE(model.is_settled());
+  model.show_now();
+  EXPECT_TRUE(model.is_settled());
+  model.drag(force(1));
+  EXPECT_TRUE(model.is_settled()) << "it is felt";
+}
+
 TEST_F(SceneModelBefore, AnEditIsMadeOnThePresentScene) {
   model.edit(QStringLiteral("Stiffness"), stiffness(650));
   model.show_before();

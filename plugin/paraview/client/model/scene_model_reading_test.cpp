@@ -71,12 +71,14 @@ TEST_F(SceneModelReading, EachPressIsDoneForWhatWasChosenThen) {
   press("spleen");
   ASSERT_EQ(reading.size(), 1U) << "one after the other";
   EXPECT_TRUE(model.is_waiting());
+  EXPECT_FALSE(model.is_settled());
   EXPECT_THAT(named(), IsEmpty());
   for (int n = 0; n < 3; ++n) answer();
   EXPECT_THAT(named(), ElementsAre("liver", "ORANGE", "spleen"));
   EXPECT_THAT(read_for, ElementsAre(1U, 2U, 3U)) << "each with those before it";
   EXPECT_EQ(kept.steps.size(), 3U);
   EXPECT_FALSE(model.is_waiting());
+  EXPECT_TRUE(model.is_settled());
   EXPECT_THAT(told, ElementsAre("", "", ""));
 }
 

@@ -105,11 +105,14 @@ TEST_F(SceneModelFollowed, WhatIsNotReadyComesLaterOrNeverWhereAnotherCame) {
   kept.put("Scene", chest);
   kept.put("Scene", bone);
   EXPECT_EQ(model.scene().name, before);
+  EXPECT_FALSE(model.is_settled());
   ASSERT_EQ(ready.size(), 2U);
   ready[0]();
   EXPECT_EQ(model.scene().name, before) << "another came meanwhile";
+  EXPECT_FALSE(model.is_settled());
   ready[1]();
   EXPECT_EQ(modes::to_json(model.scene()), bone);
+  EXPECT_TRUE(model.is_settled());
 }
 
 TEST_F(SceneModelFollowed, TextThatIsNoSceneIsPutBack) {

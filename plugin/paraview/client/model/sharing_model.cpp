@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -10,13 +9,13 @@
 
 #include "plugin/messages/messages.h"
 #include "plugin/openigtlink/contents.h"
+#include "plugin/openigtlink/marks.h"
 #include "plugin/openigtlink/names.h"
 
 namespace palpate::plugin {
 namespace {
 
 constexpr int between_looks_ms = 20;
-constexpr double same_mm = 1e-3;  // places on the wire are rounded
 
 igtl::Point point_of(const FeltMark& mark) {
   return {.name = mark.name,
@@ -35,22 +34,10 @@ FeltMark mark_of(const igtl::Point& point) {
   return mark;
 }
 
-/// Marks that a client leaves out stay: its list may be older than the last press.
-bool merge(Marks& marks, const std::vector<igtl::Point>& points) {
-  bool any = false;
-  for (const igtl::Point& point : points) {
-    const auto known = std::ranges::find(marks.points, point.name, &FeltMark::name);
-    if (known == marks.points.end()) {
-      marks.points.push_back(mark_of(point));
-      if (point.name.empty()) marks.points.back().name = free_mark_name(marks);
-    } else if (glm::distance(known->position_mm, igtl::lps_of(point.position)) > same_mm) {
-      *known = mark_of(point);
-    } else {
-      continue;
-    }
-    any = true;
-  }
-  return any;
+std::vector<igtl::Point> points_of(const Marks& marks) {
+  std::vector<igtl::Point> points;
+  for (const FeltMark& mark : marks.points) points.push_back(point_of(mark));
+  return points;
 }
 
 }  // namespace
@@ -73,9 +60,10 @@ QString SharingModel::turn_on(int port) {
       .set_scan = {},
       .set_marks = [this](const auto& points) { take_marks(points); },
       .load = {},
-      .open = [this](const std::string& folder) { emit folder_wanted(QString::fromStdString(folder)); }};
+      .open = [this](const std::string& folder) { emit folder_wanted(QString::fromStdString(folder)); },
+      .is_settled = [this] { return scene_.is_settled(); }};
   if (!received_) received_.emplace();
-  sharing_ = std::make_unique<igtl::Sharing>(session_.live(), *server_, *received_, std::move(changes),
+  sharing_ = std::make_unique<igtl::Sharing>(session_.live(), *server_, *received_, threads_, std::move(changes),
                                              igtl::Announcer::MakesMarks::no);
   send_marks();
   looks_.start();
@@ -99,25 +87,33 @@ void SharingModel::look() {
 
 void SharingModel::send_marks() {
   if (!sharing_) return;
-  std::vector<igtl::Point> points;
-  for (const FeltMark& mark : marks_.marks().points) points.push_back(point_of(mark));
-  sharing_->set_marks(points);
+  sharing_->set_marks(points_of(marks_.marks()));
 }
 
 void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& prepared) {
   if (session_.expects_scan()) throw Refusal(say("scan-is-still-being-read"));  // made on the previous scan
   session_.offer(prepared);
   const auto refused = std::make_shared<QString>();
-  scene_.edit(
-      tr("Scene from 3D Slicer"), [scene](modes::Scene& now) { now = scene; },
-      [refused](const QString& why) { *refused = why; });
+  const auto has_waited = std::make_shared<bool>(false);
+  const auto change = [scene, has_waited](modes::Scene& now) {
+    // A limit that was lowered meanwhile stays.
+    now = *has_waited ? igtl::tightened(scene, now.limits, now.stiffness_n_per_m) : scene;
+  };
+  scene_.edit(tr("Scene from 3D Slicer"), change, [refused](const QString& why) { *refused = why; });
+  *has_waited = true;
   if (!refused->isEmpty()) throw std::runtime_error(refused->toStdString());
 }
 
 void SharingModel::take_marks(const std::vector<igtl::Point>& points) {
   igtl::internal::check_scan(marks_.has_scan());
-  Marks merged = marks_.marks();
-  if (merge(merged, points)) marks_.edit(tr("Marks from 3D Slicer"), [&](Marks& now) { merge(now, points); });
+  const std::vector<igtl::Point> changed = igtl::changed_marks(points_of(marks_.marks()), points);
+  if (changed.empty()) return;
+  marks_.edit(tr("Marks from 3D Slicer"), [&](Marks& now) {
+    for (const igtl::Point& point : changed) {
+      const auto known = std::ranges::find(now.points, point.name, &FeltMark::name);
+      (known == now.points.end() ? now.points.emplace_back() : *known) = mark_of(point);
+    }
+  });
 }
 
 }  // namespace palpate::plugin

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "plugin/openigtlink/job.h"
 #include "plugin/openigtlink/server.h"
 #include "plugin/openigtlink/sharing.h"
 #include "plugin/paraview/client/model/marks_model.h"
@@ -27,6 +28,7 @@ class SharingModel : public QObject {
 
   /// Listens on this machine. Returns why that is impossible; empty: it listens.
   QString turn_on(int port);
+  /// What is being prepared is cancelled, and ends in the background.
   void turn_off();
   bool is_on() const { return sharing_ != nullptr; }
   /// The port on which it listens; 0: none.
@@ -50,6 +52,7 @@ class SharingModel : public QObject {
   MarksModel& marks_;
   std::unique_ptr<igtl::Server> server_;
   std::optional<igtl::Received> received_;  // kept from the first time on: scenes name its files
+  igtl::JobThreads threads_;
   std::unique_ptr<igtl::Sharing> sharing_;
   std::size_t clients_ = 0;
   QTimer looks_;

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -47,6 +49,27 @@ struct SharingTest : testing::WithApplication, ::testing::Test {
       return found.has_value();
     });
     return found;
+  }
+  /// Turned on, with what every client gets first behind it.
+  std::unique_ptr<TestClient> a_client() {
+    EXPECT_EQ(sharing.turn_on(0).toStdString(), "");
+    auto client = std::make_unique<TestClient>(sharing.port());
+    EXPECT_TRUE(next(*client, "POINT", igtl::marks_name));
+    return client;
+  }
+  /// A scene of a client's, of the usual limits.
+  modes::Scene theirs() const {
+    modes::Scene scene = modes::load_scene("ct-skin-and-bone");
+    scene.name = "theirs";
+    return scene;
+  }
+  /// Returns when it is long ago that the scene came.
+  void send_and_wait(TestClient& client, const modes::Scene& scene) {
+    client.send_text(igtl::scene_name, modes::to_json(scene));
+    client.send({.type = "GET_POINT", .device = igtl::marks_name, .content = {}});
+    EXPECT_TRUE(next(client, "POINT", igtl::marks_name)) << "the answer to what was sent after the scene";
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
+    comes([&] { return std::chrono::steady_clock::now() > end; });
   }
   std::string next_status(TestClient& client, const std::string& name) {
     std::string text;
@@ -133,6 +156,96 @@ TEST_F(SharingTest, NeitherForceNorLimitIsTheNetworks) {
   ASSERT_TRUE(session.live().ticks() && session.live().ticks()->written() > 0);
   ASSERT_TRUE(session.live().ticks()->read(session.live().ticks()->written() - 1, tick));
   EXPECT_EQ(glm::length(vector_of(tick.sent_n)), 0);
+}
+
+constexpr const char* too_old = "refused: the scene was changed at the stylus while this one was being prepared";
+
+/// A limit that is lowered waits for files: a request that comes meanwhile neither undoes it nor raises it again.
+TEST_F(SharingTest, AStepThatWaitsForItsFilesStays) {
+  open_scan();
+  std::function<void(const QString&)> read;
+  bool is_read = false;
+  model.set_read([&](const modes::Scene& scene, auto done) {
+    if (is_read || scene.limits.force_n != 1) return false;
+    read = std::move(done);
+    return true;
+  });
+  model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 1; });
+  ASSERT_TRUE(model.is_waiting());
+  const auto client = a_client();
+  send_and_wait(*client, theirs());
+  client->send(ball_of_labels("liver", glm::dvec3(0), 20));
+  EXPECT_EQ(model.scene().limits.force_n, 3) << "nothing is done before it";
+  is_read = true;
+  read({});
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+  EXPECT_EQ(next_status(*client, "refused"), too_old);
+  ASSERT_TRUE(comes([&] { return model.scene().structures.size() == 1; })) << "that goes on from the user's scene";
+  EXPECT_NE(model.scene().name, "theirs");
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+  EXPECT_EQ(session.live().scene().limits.force_n, 1);
+}
+
+/// Undo and scripts write scenes into the pipeline, whose filters take their time.
+TEST_F(SharingTest, ASceneOfThePipelineThatIsBeingPreparedStays) {
+  open_scan();
+  std::function<void()> ready;
+  model.set_make_ready([&](const modes::Scene&, std::function<void()> done) {
+    ready = std::move(done);
+    return true;
+  });
+  const auto client = a_client();
+  modes::Scene own = model.scene();
+  own.limits.force_n = 1;
+  kept.put("Scene", modes::to_json(own));
+  ASSERT_TRUE(ready);
+  send_and_wait(*client, theirs());
+  EXPECT_NE(model.scene().name, "theirs");
+  ready();
+  EXPECT_EQ(next_status(*client, "refused"), too_old);
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+  EXPECT_EQ(session.live().scene().limits.force_n, 1);
+}
+
+/// The scene before the last edit is shown as long as a key is held: its limits are not the user's own.
+TEST_F(SharingTest, TheSceneBeforeTheLastEditRaisesNoLimit) {
+  open_scan();
+  model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 1; });
+  model.show_before();
+  ASSERT_EQ(session.live().scene().limits.force_n, 3);
+  const auto client = a_client();
+  send_and_wait(*client, theirs());
+  EXPECT_NE(model.scene().name, "theirs");
+  model.show_now();
+  EXPECT_EQ(next_status(*client, "refused"), too_old);
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+  client->send_text(igtl::scene_name, modes::to_json(theirs()));
+  ASSERT_TRUE(comes([&] { return model.scene().name == "theirs"; }));
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+}
+
+/// What the panel itself proposes does not wait behind it.
+TEST_F(SharingTest, ARequestThatWaitsForFilesRaisesNoLimitThatIsLoweredMeanwhile) {
+  open_scan();
+  std::function<void(const QString&)> read;
+  bool is_read = false;
+  model.set_read([&](const modes::Scene& scene, auto done) {
+    if (is_read || scene.name != "theirs") return false;
+    read = std::move(done);
+    return true;
+  });
+  const auto client = a_client();
+  client->send_text(igtl::scene_name, modes::to_json(theirs()));
+  ASSERT_TRUE(comes([&] { return model.is_waiting(); }));
+  modes::Scene proposed = model.scene();
+  proposed.limits.force_n = 1;
+  proposed.stiffness_n_per_m = 200;
+  ASSERT_TRUE(model.propose(proposed));
+  is_read = true;
+  read({});
+  EXPECT_EQ(model.scene().name, "theirs");
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+  EXPECT_EQ(model.scene().stiffness_n_per_m, 200);
 }
 
 /// A list of marks may be older than the last press here: what it leaves out stays.
