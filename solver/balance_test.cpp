@@ -108,6 +108,37 @@ TEST(Balance, RangesEndWhereTheyAreSaidToEnd) {
              Field::stiffness, Flaw::out_of_range, softer);
 }
 
+/// The number that is told is the one that is not finite, whichever component it is.
+TEST(Balance, ANumberThatIsNotFiniteIsToldAsItIs) {
+  for (const double bad : {nan, infinity, -infinity}) {
+    const auto expect_told = [bad](const std::optional<Rejection>& rejection, std::size_t primitive, Field field) {
+      ASSERT_TRUE(rejection);
+      EXPECT_EQ(rejection->primitive, primitive);
+      EXPECT_EQ(rejection->field, field);
+      EXPECT_EQ(rejection->flaw, Flaw::not_finite);
+      EXPECT_TRUE(std::isnan(bad) ? std::isnan(rejection->value) : rejection->value == bad)
+          << rejection->value << " for " << bad;
+    };
+    constexpr std::size_t whole = Rejection::whole_balance;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 v{0.001, -0.002, 0.003};
+      v[axis] = bad;
+      expect_told(validate({400, v, o, {}}), whole, Field::probe);
+      expect_told(validate({400, o, v, {}}), whole, Field::previous_proxy);
+      for (const Primitive& primitive : {make_plane(1, v, x), make_line(1, v, x), make_point(1, v)}) {
+        expect_told(check(primitive), 1, Field::position);
+      }
+      for (const Primitive& primitive : {make_plane(1, o, v), make_line(1, o, v), make_directed_force(1, v)}) {
+        expect_told(check(primitive), 1, Field::direction);
+      }
+    }
+    expect_told(validate({bad, o, o, {}}), whole, Field::stiffness);
+  }
+  const auto strength = check(make_directed_force(infinity, x));
+  ASSERT_TRUE(strength);
+  EXPECT_EQ(strength->value, infinity);
+}
+
 TEST(Balance, WhatIsNotReadMayBeAnything) {
   EXPECT_FALSE(check({PrimitiveType::directed_force, 1, {nan, nan, nan}, {1, 0, 0}}));
   EXPECT_FALSE(check({PrimitiveType::point, 1, {0, 0, 0}, {0, nan, 0}}));
@@ -139,6 +170,24 @@ TEST(Balance, DescriptionIsASentence) {
   EXPECT_EQ(describe({1, Field::strength, Flaw::incompatible, 0.25}),
             "primitive 1: has infinite strength, but no point meets it together with the other hard constraints: it "
             "stays 0.25 m away (tolerance: 1e-12 of the largest distance between probe and constraints)");
+}
+
+/// The largest number is told of every field, the smallest of the stiffness alone: no other has one.
+TEST(Balance, WhatIsOutOfRangeIsToldWithItsOwnRange) {
+  constexpr std::size_t whole = Rejection::whole_balance;
+  const struct {
+    std::size_t primitive;
+    Field field;
+    const char* said;
+  } cases[] = {{whole, Field::stiffness, "stiffness is out of range (1e+51): at most 1e+50, at least 1e-50"},
+               {whole, Field::probe, "probe is out of range (1e+51): at most 1e+50"},
+               {whole, Field::previous_proxy, "previous proxy is out of range (1e+51): at most 1e+50"},
+               {2, Field::strength, "primitive 2: strength is out of range (1e+51): at most 1e+50"},
+               {2, Field::position, "primitive 2: position is out of range (1e+51): at most 1e+50"},
+               {2, Field::direction, "primitive 2: direction is out of range (1e+51): at most 1e+50"}};
+  for (const auto& [primitive, field, said] : cases) {
+    EXPECT_EQ(describe({primitive, field, Flaw::out_of_range, 1e51}), said);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <new>
 
 #include "solver/analytical.h"
@@ -74,6 +75,29 @@ TEST(Chain, WithoutASolverThatCanItIsUnsuitable) {
   Chain chain({.solvers = {&analytical_solver}});
   std::array<Vec3, 2> forces;
   EXPECT_EQ(chain.solve({400, {-mm, -2 * mm, 0}, Vec3{0}, oblique}, forces).outcome, Outcome::unsuitable);
+}
+
+/// Two points far away, at right angles. One pass misses what the second movement turns of the first one's pull: the
+/// force s times (s / k) / distance, which is (s / k)^2 / distance of the proxy. Alone the analytical solver may be off
+/// by a nanometer and not by more.
+TEST(Chain, WhatTheAnalyticalSolverAnswersAloneIsOffByNoMoreThanANanometer) {
+  constexpr double k = 400, s = 0.5, way = s / k;
+  const auto solve = [](const SolverSet& solvers, double distance) {
+    const std::array points{make_point(s, {distance, 0, 0}), make_point(s, {0, distance, 0})};
+    Chain chain({.solvers = solvers});
+    std::array<Vec3, 2> forces;
+    return chain.solve({k, Vec3{0}, Vec3{0}, points}, forces);
+  };
+  for (const double distance : {2.0, 16.0, 128.0, 1024.0, 1500.0, 1600.0, 2048.0, 8192.0}) {  // m
+    const double missed = way * way / distance;
+    const Solution alone = solve({&analytical_solver}, distance);
+    EXPECT_NEAR(alone.error_bound, missed, 0.01 * missed) << distance;
+    EXPECT_EQ(alone.outcome, missed <= 1e-9 ? Outcome::capped : Outcome::unsuitable) << distance;
+    const Solution both = solve({&analytical_solver, &exact_solver}, distance);
+    EXPECT_EQ(both.outcome, Outcome::solved) << distance;
+    EXPECT_EQ(both.solver, &exact_solver) << distance;
+    EXPECT_LE(glm::distance(alone.proxy, both.proxy), alone.error_bound + both.error_bound) << distance;
+  }
 }
 
 TEST(Chain, RefusesRubbishBeforeAnySolver) {

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
+#include "solver/testing/problems.h"
 #include "solver/testing/values.h"
 
 namespace palpate::solver {
@@ -34,6 +36,28 @@ TEST(Descent, EndsAtItsCapWhereTheStepDoesNotShrink) {
   const Solution solution = solve_descent(balance, {.reduction = 1}, {});
   EXPECT_EQ(solution.outcome, Outcome::capped);
   EXPECT_EQ(solution.iterations, 10000);
+}
+
+/// As one of a chain's solvers it keeps to the cap of the run, which is less than its own.
+TEST(Descent, KeepsToTheCapOfTheRun) {
+  int capped = 0;
+  for (const Family family : all_families) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Problem problem = make_problem(family, seed);
+      std::vector<Vec3> forces(problem.primitives.size());
+      for (const int cap : {1, 2, 7, 40}) {
+        const Solution solution = descent_solver.solve(problem.balance(), forces, nullptr, {.max_iterations = cap});
+        EXPECT_LE(solution.iterations, cap) << name_of(family) << " " << seed;
+        if (solution.outcome != Outcome::capped) continue;
+        ++capped;
+        EXPECT_EQ(solution.iterations, cap) << name_of(family) << " " << seed;
+      }
+    }
+  }
+  EXPECT_GT(capped, 400);
+  // Without a cap it has its own.
+  const Balance balance{400, {1.5 * mm, 0, 0}, o, {}};
+  EXPECT_EQ(descent_solver.solve(balance, {}, nullptr, {}).iterations, solve_descent(balance, {}, {}).iterations);
 }
 
 TEST(Descent, EndsWhereTheStepIsBelowTheSmallest) {

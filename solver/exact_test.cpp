@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <numeric>
 #include <vector>
 
 #include "solver/analytical.h"
@@ -130,6 +132,37 @@ TEST(Exact, OfManyPrimitivesAnswersInTheirOrder) {
     const Solution refused = solve_exact(problem.balance(), forces, scratch);
     ASSERT_EQ(refused.outcome, Outcome::refused);
     EXPECT_THAT(refused.rejection->primitive, ::testing::AnyOf(40U, 90U));
+  }
+}
+
+// A warm start of many begins with each one's own force: given mixed or by kind, they have the same answer to the last
+// bit, after the same work.
+TEST(Exact, OfManyPrimitivesAWarmStartIsTheSameMixedAndByKind) {
+  constexpr std::size_t count = 150;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Problem mixed = make_problem(Family::many, seed, count);
+    const auto solve = [](const Problem& problem, std::vector<Vec3>& forces, Start start) {
+      ExactScratch scratch;
+      return solve_exact(problem.balance(), forces, scratch, {.start = start});
+    };
+    Problem before = mixed;
+    before.probe += Vec3{1e-4, -2e-4, 0};
+    std::vector<Vec3> forces(count), sorted_forces(count);
+    solve(before, forces, Start::cold);
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, {}, [&](std::size_t n) { return mixed.primitives[n].type; });
+    Problem sorted = mixed;
+    for (std::size_t n = 0; n < count; ++n) {
+      sorted.primitives[n] = mixed.primitives[order[n]];
+      sorted_forces[n] = forces[order[n]];
+    }
+    const Solution one = solve(mixed, forces, Start::warm), other = solve(sorted, sorted_forces, Start::warm);
+    EXPECT_EQ(one.outcome, other.outcome) << seed;
+    EXPECT_EQ(one.iterations, other.iterations) << seed;
+    EXPECT_EQ(one.proxy, other.proxy) << seed;
+    EXPECT_EQ(one.error_bound, other.error_bound) << seed;
+    for (std::size_t n = 0; n < count; ++n) EXPECT_EQ(forces[order[n]], sorted_forces[n]) << seed << ", " << n;
   }
 }
 

@@ -83,5 +83,48 @@ TEST(HardConstraints, ThatMeetButForTheRoundingOfTheirPositionsAreNeverIncompati
   EXPECT_LT(unknown, 30);
 }
 
+/// Of hard constraints without a common point the one that is named is the farthest from the proxy, with its distance,
+/// wherever it stands among the others.
+TEST(HardConstraints, ThatCannotBeMetAreNamedByTheFarthest) {
+  int not_last = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    const Vec3 middle = random.normal_vector(0.05);
+    Problem problem;
+    problem.probe = problem.previous_proxy = middle + random.normal_vector(1e-3);
+    // Two points alone have none; the others stand anywhere near.
+    for (int n = 0; n < 2; ++n) {
+      problem.primitives.push_back(make_point(infinity, middle + random.normal_vector(1e-3)));
+    }
+    for (std::size_t n = 1 + random.below(3); n > 0; --n) {
+      problem.primitives.push_back(through(random, middle + random.normal_vector(1e-3), 1e-3));
+      problem.primitives.push_back(make_point(0.5, middle + random.normal_vector(1e-3)));
+    }
+    for (const bool backwards : {false, true}) {
+      if (backwards) std::ranges::reverse(problem.primitives);
+      std::vector<Vec3> forces(problem.primitives.size());
+      ExactScratch scratch;
+      const Solution solution = solve_exact(problem.balance(), forces, scratch);
+      ASSERT_EQ(solution.outcome, Outcome::refused) << seed;
+      double farthest = 0, last = 0;  // m: of those that are not met
+      for (const Primitive& primitive : problem.primitives) {
+        if (!std::isinf(primitive.strength)) continue;
+        const double distance = distance_of(primitive, solution.proxy);
+        farthest = std::max(farthest, distance);
+        if (distance > 1e-6) last = distance;
+      }
+      not_last += last < 0.99 * farthest ? 1 : 0;
+      const Rejection& rejection = *solution.rejection;
+      ASSERT_LT(rejection.primitive, problem.primitives.size()) << seed;
+      const Primitive& named = problem.primitives[rejection.primitive];
+      EXPECT_EQ(rejection.flaw, Flaw::incompatible) << seed;
+      EXPECT_TRUE(std::isinf(named.strength)) << seed;
+      EXPECT_NEAR(distance_of(named, solution.proxy), farthest, 1e-12) << seed;
+      EXPECT_NEAR(rejection.value, farthest, 1e-12) << seed;
+    }
+  }
+  EXPECT_GT(not_last, 10) << "else this test shows nothing";
+}
+
 }  // namespace
 }  // namespace palpate::solver

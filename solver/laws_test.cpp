@@ -239,6 +239,43 @@ TEST(Laws, TheWorkIsWhatItWas) {
   }
 }
 
+/// A directed force has no position, and a point no direction: what stands there, if only from an earlier use of the
+/// memory, changes no bit of an answer, of its forces or of its certificate.
+TEST(Laws, WhatAPrimitiveDoesNotHaveChangesNoBit) {
+  const auto law = [](const Problem& problem, std::uint64_t seed) {
+    Random random(seed);
+    Problem littered = problem;
+    for (Primitive& primitive : littered.primitives) {
+      const Vec3 anything[] = {Vec3{nan}, Vec3{-infinity}, random.normal_vector(1e6), random.normal_vector(1e-3)};
+      const Vec3& litter = anything[random.below(std::size(anything))];
+      if (primitive.type == PrimitiveType::directed_force) primitive.position = litter;
+      if (primitive.type == PrimitiveType::point) primitive.direction = litter;
+    }
+    for (const SolverType* const type : solver_types()) {
+      std::vector<Vec3> forces(problem.primitives.size()), theirs(problem.primitives.size());
+      const auto solve = [type](const Problem& one, std::vector<Vec3>& to) {
+        const auto scratch = type->make_scratch != nullptr ? type->make_scratch(to.size()) : nullptr;
+        return type->solve(one.balance(), to, scratch.get(), {.max_iterations = 20});
+      };
+      const Solution solution = solve(problem, forces), other = solve(littered, theirs);
+      EXPECT_EQ(other.outcome, solution.outcome) << type->name;
+      EXPECT_EQ(other.proxy, solution.proxy) << type->name;
+      EXPECT_EQ(other.error_bound, solution.error_bound) << type->name;
+      EXPECT_EQ(other.iterations, solution.iterations) << type->name;
+      EXPECT_EQ(theirs, forces) << type->name;
+      const Certificate certificate = certify(problem.balance(), solution.proxy, forces);
+      const Certificate their_certificate = certify(littered.balance(), solution.proxy, forces);
+      EXPECT_EQ(their_certificate.error_bound, certificate.error_bound) << type->name;
+      EXPECT_EQ(their_certificate.backward_bound, certificate.backward_bound) << type->name;
+      EXPECT_EQ(promised_accuracy(littered.balance(), solution.proxy, forces),
+                promised_accuracy(problem.balance(), solution.proxy, forces))
+          << type->name;
+    }
+  };
+  expect_of_all(all_families, cases(2000), law);
+  law(make_problem(Family::many, 0, 150), 0);  // so many that they are sorted
+}
+
 // Puts one thing wrong; returns what has to be said about it.
 Rejection spoil(Problem& problem, Random& random) {
   const std::size_t i = random.below(problem.primitives.size());

@@ -101,6 +101,23 @@ TEST(SolverType, ReadsOnlyWhatItSaysItReads) {
   }
 }
 
+/// Of every set, and one that is in it already too.
+TEST(SolverType, ASetWithOneMoreHasAllThatItHadAndThatOne) {
+  const auto types = solver_types();
+  for (unsigned in = 0; in < 1U << types.size(); ++in) {
+    SolverSet set;
+    for (std::size_t n = 0; n < types.size(); ++n) set.set(*types[n], (in >> n & 1U) != 0);
+    for (const SolverType* const more : types) {
+      const SolverSet both = set.with(*more);
+      for (std::size_t n = 0; n < types.size(); ++n) {
+        const bool was_in = (in >> n & 1U) != 0;
+        EXPECT_EQ(both.contains(*types[n]), was_in || types[n] == more) << in << " with " << more->name;
+        EXPECT_EQ(set.contains(*types[n]), was_in) << "the set itself stays as it is";
+      }
+    }
+  }
+}
+
 TEST(SolverType, AChainAsksInTheOrderOfTheList) {
   for (const SolverType* const alone : solver_types()) {
     EXPECT_EQ(SolverSet::usual().contains(*alone), alone->is_usual);

@@ -15,7 +15,6 @@
 namespace palpate::io {
 namespace {
 
-constexpr int brick_edge = NodeBricks::edge;
 
 struct OddBricks {
   std::mt19937 random;

@@ -166,6 +166,22 @@ TEST(ContourRegionLaws, AreSaidOfTheStructure) {
   EXPECT_EQ(overlapping.warnings[0], "contours overlap in 1 of its planes: what lies inside any of them is inside");
 }
 
+// Every point lies less than 1000 m from the first, along either axis.
+TEST(ContourRegionLaws, WhatSpansAThousandMetersIsRefused) {
+  constexpr double limit_mm = 1e6;
+  for (const glm::dvec2& way : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+    for (const double mm : {limit_mm - 1, limit_mm, limit_mm + 1}) {
+      const glm::dvec2 aside(-way.y, way.x);
+      const Polygons contours{{glm::dvec2(0), mm * way, 10.0 * aside}};
+      if (mm < limit_mm) {
+        EXPECT_NEAR(filled_mm2(contours), 5 * mm, 1) << way.x << ' ' << way.y;
+      } else {
+        EXPECT_THROW(region_of(contours, false), DicomError) << way.x << ' ' << way.y << ' ' << mm;
+      }
+    }
+  }
+}
+
 std::string refusal_of_random(int contours, int points) {
   Drawing draw(1);
   Polygons all;

@@ -186,5 +186,50 @@ TEST(DoubtfulPlaces, TheLargestErrorComesFirstAndTheResultIsTheSameOnAnyNumberOf
   EXPECT_EQ(again.without_edge, found.without_edge);
 }
 
+/// A ball of 60 HU in -100 HU. It has a dark core whose flat side lies across its middle.
+std::shared_ptr<const Volume> scan_with_core(const Geometry& geometry, double radius) {
+  const auto share = [](double mm) { return 0.5 * (1 + std::erf(mm / std::sqrt(2.0))); };
+  Volume scan;
+  scan.geometry = geometry;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 4);
+  std::vector<float> voxels;
+  const glm::ivec3 size = geometry.dimensions;
+  for (int n = 0; n < size.x * size.y * size.z; ++n) {
+    const Vec3 at = geometry.to_patient({n % size.x, n / size.x % size.y, n / (size.x * size.y)});
+    const double depth = radius - glm::length(at), core = std::min({depth - 6, -at.x, at.x + 7});
+    voxels.push_back(static_cast<float>(-100 + 160 * share(depth) - 120 * share(core) + noise(random)));
+  }
+  scan.voxels = std::move(voxels);
+  return std::make_shared<const Volume>(std::move(scan));
+}
+
+// A cap is cut off 5 mm above the core. The core's edge is no end of the structure, so the scan has none there.
+TEST(DoubtfulPlaces, AnEdgeInsideTheStructureIsNotItsEnd) {
+  constexpr double radius = 15, cut_mm = 5;
+  const Geometry geometry = testdata::make_geometry({.size = glm::ivec3(56)});
+  const std::shared_ptr<const FieldSource> fields = edge_fields(scan_with_core(geometry, radius));
+  const auto field =
+      outlined(geometry, [=](const Vec3& at) { return std::min(radius - glm::length(at), cut_mm - at.x); });
+  const ScanValues scan{*fields, geometry};
+  const auto core = scan_edge(scan, *field, {cut_mm, 0, 0}, {1, 0, 0}, doubt_within_mm);
+  ASSERT_TRUE(core) << "it is within reach";
+  EXPECT_NEAR(core->mm, -cut_mm, 0.5);
+  std::size_t without_edge = 0;
+  for (const DoubtfulPlace& place : doubtful_places(scan, *field).places) {
+    if (place.kind != DoubtKind::no_edge) {
+      EXPECT_GT(place.mean_mm, 0) << "the ball's own edge lies outside";
+      continue;
+    }
+    ++without_edge;
+    EXPECT_NEAR(place.position_mm.x, cut_mm, 1);
+    EXPECT_LT(glm::length(glm::dvec2(place.position_mm.y, place.position_mm.z)), 5);
+    EXPECT_EQ(place.mean_mm, 0);
+    EXPECT_EQ(place.largest_mm, 0);
+    EXPECT_EQ(place.known_to_mm, 0);
+  }
+  EXPECT_EQ(without_edge, 1U);
+}
+
 }  // namespace
 }  // namespace palpate::io

@@ -109,5 +109,23 @@ TEST(EditTubes, DensePathsAreTubes) {
   }
 }
 
+// Far from the surface, too, the distance is that of the new one: up to each end of the scan, and beyond it.
+TEST(EditTubes, APartBesideAnEndOfTheScanIsMeasuredThereAndBeyond) {
+  const Mask labels = made_labels([](const Vec3& at) { return glm::length(at) < 10; }, 40, {});
+  const FieldPointer ball = distance_of(labels, {.scan = &labels.geometry});
+  constexpr double radius = 5, end_mm = 39.5;
+  for (const Vec3& end : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1),
+                          Vec3(1, 1, 1), Vec3(-1, -1, -1)}) {
+    const Vec3 center = 28.0 * end;
+    const FieldPointer two = apply_edit(ball, AddEdit{{.path_mm = {center}, .radius_mm = radius}});
+    for (const double beyond_mm : {0.0, 5.0, 30.0}) {
+      if (glm::length(end) > 1 && beyond_mm > 5) continue;  // farther from the part than distances are made anew
+      const Vec3 at = (end_mm + beyond_mm) * end;
+      EXPECT_NEAR(two->sample(at).mm, radius - glm::distance(at, center), 2)
+          << at.x << ' ' << at.y << ' ' << at.z << ", " << beyond_mm;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::io

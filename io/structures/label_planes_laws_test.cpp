@@ -190,6 +190,27 @@ TEST(LabelPlanesLaws, NodesAreAsFineAsTheFinestAxis) {
   }
 }
 
+/// So that the coarser lattices hold them, too.
+TEST(LabelPlanesLaws, AllPlanesLieWithinTheLatticeWithRoomAroundThem) {
+  for (const double step : {1.0, 2.0, 4.0, 8.0}) {
+    for (int tall = 1; tall <= 16; ++tall) {
+      Mask mask;
+      Geometry& g = mask.geometry;
+      g.dimensions = {5, 5, 40};
+      for (int k = 0; k < 40; ++k) g.slice_positions.emplace_back(0, 0, k * step);
+      g.step = Vec3(0, 0, step);
+      mask.low = {2, 2, 12};
+      mask.size = {1, 1, tall};
+      mask.occupancy.assign(static_cast<std::size_t>(tall), Mask::full);
+      const OutlinePlanes planes = planes_of(mask, 1);
+      const int room = 1 << planes.coarser;
+      EXPECT_EQ(room, static_cast<int>(step));
+      EXPECT_GE(planes.node.front(), room) << tall;
+      EXPECT_LT(planes.node.back() + room, planes.lattice.bricks.z * NodeBricks::edge) << tall << ' ' << step;
+    }
+  }
+}
+
 // Slices that are off their places by less than a fiftieth of a voxel are taken as straight and even.
 TEST(LabelPlanesLaws, AFiftiethOfAVoxelIsNotOff) {
   for (const auto& [off, parts] : {std::pair{0.019, 1.0}, {0.021, 2.0}}) {

@@ -47,6 +47,26 @@ TEST(OutlinePlaces, LieOnTheSurfaceEvenlyAndStandForAllOfIt) {
   }
 }
 
+/// Each edge of the lattice that crosses the surface counts once: alone in its cell or with others.
+TEST(OutlinePlaces, StandForTheSameAreaHoweverFarApart) {
+  std::mt19937_64 random(43);
+  for (int n = 0; n < 4; ++n) {
+    const Vec3 radii(4 + n, 6, 7 - n);
+    const auto egg = [&](const Vec3& at) { return glm::length(at / radii) < 1; };
+    const auto field = distance_of(made_labels(egg, 10, any_lattice(random)));
+    const auto area_of_all = [&](double spacing_mm) {
+      double area = 0;
+      for (const OutlinePlace& place : outline_places(*field, spacing_mm)) area += place.area_mm2;
+      return area;
+    };
+    const double area = area_of_all(20);
+    EXPECT_GT(area, 200) << n;
+    for (const double spacing_mm : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 9.0}) {
+      EXPECT_NEAR(area_of_all(spacing_mm), area, 1e-6 * area) << n << ' ' << spacing_mm;
+    }
+  }
+}
+
 /// Both walls of a plate that is thinner than places are apart.
 TEST(OutlinePlaces, AreOnEachOfTwoWallsHoweverNear) {
   const auto plate = [](const Vec3& at) { return std::abs(at.z) < 0.7 && glm::length(glm::dvec2(at)) < 10; };

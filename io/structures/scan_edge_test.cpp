@@ -304,6 +304,26 @@ TEST(ScanEdge, IsTheNearestAndNotShiftedByItsNeighbor) {
   }
 }
 
+// The scan ends beyond the structure, less than a millimeter away.
+TEST(ScanEdge, IsTheSameSeenEitherWayUpToTheEndOfTheScan) {
+  const Geometry geometry = testdata::make_geometry({.size = {32, 24, 24}});
+  const double end = geometry.to_patient({31, 0, 0}).x;
+  const auto volume =
+      scanned({.background = -100, .bodies = {{testdata::HalfSpace{{1, 0, 0}, end - 4.2}, 60}}}, geometry);
+  const auto structure = distance_of(
+      labels_of(geometry, [&](const glm::ivec3& voxel) { return geometry.to_patient(Vec3(voxel)).x < end - 0.5; }));
+  const VolumeFields values = fields_of_values(volume);
+  for (const double left_mm : {0.1, 0.3, 0.6, 0.9, 1.4}) {
+    const Vec3 place(end - left_mm, 0.2, 0.4);
+    const auto on = scan_edge({values, geometry}, *structure, place, {1, 0, 0}, within_mm);
+    const auto back = scan_edge({values, geometry}, *structure, place, {-1, 0, 0}, within_mm);
+    ASSERT_TRUE(on && back) << left_mm;
+    EXPECT_NEAR(on->mm, left_mm - 4.2, 0.15) << left_mm;
+    EXPECT_NEAR(back->mm, -on->mm, 1e-6) << left_mm;
+    EXPECT_NEAR(back->rise, -on->rise, 1e-3) << left_mm;
+  }
+}
+
 // From bone by soft tissue to fat: the value falls twice, by steps of the same size.
 TEST(ScanEdge, IsOneStepOfTwo) {
   const AlongX scan({.background = -100,

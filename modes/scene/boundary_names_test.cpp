@@ -5,8 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include "modes/scene/tissue_colors.h"
 
 namespace palpate::modes {
 namespace {
@@ -63,6 +68,56 @@ TEST(BoundaryNames, of_air_in_a_ct_tell_every_site_where_it_is_met) {
   EXPECT_EQ(name(-1000, -850, {0, 100, 0, 0, 0, 0}), "Airways in the lung");
   EXPECT_EQ(name(-1000, -850, {0, 0, 0, 0, 100, 0}), "Foam or cloth");
   EXPECT_EQ(name(40, 700, {500, 0, 0, 0, 0, 0}), "Bone") << "not of air";
+}
+
+/// A mat that lies on the table is of the table, and one that lies elsewhere is cloth: both count, together.
+TEST(BoundaryNames, of_a_light_thing_are_foam_or_cloth_wherever_it_lies) {
+  for (const std::uint64_t cloth : {0U, 6U, 11U, 5000U}) {
+    for (const std::uint64_t table : {0U, 6U, 11U, 5000U}) {
+      const bool is_told = 1000 * (cloth + table) > 10000 + cloth + table;
+      const NamedPair of_lung{.low = -1000, .high = -850, .sites = {0, 10000, 0, table, cloth, 0}};
+      const NamedPair of_nothing{.low = -1000, .high = -850, .sites = {0, 0, 0, table, cloth, 10000}};
+      const NamingOptions options{.hounsfield = true, .range = 1000};
+      EXPECT_EQ(boundary_names(std::array{of_lung}, options).front(),
+                is_told ? "Airways in the lung and foam or cloth" : "Airways in the lung")
+          << cloth << ' ' << table;
+      EXPECT_EQ(boundary_names(std::array{of_nothing}, options).front(), is_told ? "Foam or cloth" : "Lung or foam")
+          << cloth << ' ' << table;
+    }
+  }
+}
+
+/// Every tissue that a name can tell has a color of its own.
+TEST(BoundaryNames, have_the_colors_of_the_tissues_that_they_tell) {
+  const std::pair<std::string_view, TissueKind> names[] = {{"Skin", TissueKind::skin},
+                                                           {"Skin?", TissueKind::skin},
+                                                           {"Skin, lung surface and table", TissueKind::skin},
+                                                           {"Scalp and brain surface?", TissueKind::skin},
+                                                           {"Scalp fat or CSF?", TissueKind::skin},
+                                                           {"Bone", TissueKind::bone},
+                                                           {"Bone, 717 HU from 40", TissueKind::bone},
+                                                           {"Bone at air and table", TissueKind::bone},
+                                                           {"Dense bone", TissueKind::bone},
+                                                           {"Soft tissue", TissueKind::soft_tissue},
+                                                           {"Gray and white matter?", TissueKind::soft_tissue},
+                                                           {"Tissue 2 to 3", TissueKind::soft_tissue},
+                                                           {"Wall in soft tissue", TissueKind::soft_tissue},
+                                                           {"Lung surface", TissueKind::lung},
+                                                           {"Lung or foam", TissueKind::lung},
+                                                           {"Airways in the lung", TissueKind::lung},
+                                                           {"Air inside the body", TissueKind::inner_air},
+                                                           {"Metal", TissueKind::metal},
+                                                           {"Metal, 3000 HU", TissueKind::metal},
+                                                           {"Table", TissueKind::table},
+                                                           {"Foam or cloth", TissueKind::table}};
+  for (const auto& [name, kind] : names) {
+    EXPECT_EQ(kind_of(name), kind) << name;
+    EXPECT_EQ(kind_of(way_back_name(std::string(name))), kind) << name;
+  }
+  const TissueKind kinds[] = {TissueKind::skin,      TissueKind::bone,  TissueKind::soft_tissue, TissueKind::lung,
+                              TissueKind::inner_air, TissueKind::metal, TissueKind::vessel,      TissueKind::table};
+  std::set<std::string_view> colors;
+  for (const TissueKind kind : kinds) EXPECT_TRUE(colors.insert(color_of(kind)).second) << color_of(kind);
 }
 
 /// Where there is bone, all air of the body is one: a sinus is neither skin nor lung.

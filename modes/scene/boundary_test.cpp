@@ -1,10 +1,14 @@
-// What a pair of tissues says of a boundary: where each tissue is, and which of the two is the lower.
+// What a pair of tissues says of a boundary: where each tissue is, and which of the two is the lower. And at which
+// values a boundary begins to be felt.
 #include "modes/scene/boundary.h"
 
 #include <gtest/gtest.h>
 
+#include <random>
+#include <utility>
 #include <vector>
 
+#include "modes/scene/met_values.h"
 #include "solver/text/testing/not_finite.h"
 
 namespace palpate::modes {
@@ -51,6 +55,53 @@ TEST(Boundary, lies_between_the_lower_tissue_and_the_higher_whichever_comes_firs
         }
       }
     }
+  }
+}
+
+/// Windows of values one above the other, each with soft ends: entered at the middle of its lower end, left at the
+/// middle of its upper one, and both from both sides. Whether one gate says it or a product of two.
+TEST(MetValues, are_the_middles_of_the_ends_that_the_side_resists) {
+  std::mt19937 random(8);
+  const auto any = [&random](double least, double most) { return std::uniform_real_distribution(least, most)(random); };
+  const Gate elsewhere{Datum::gradient_magnitude, TransferFunction({{0, 0}, {1, 1}})};
+  for (int n = 0; n < 100; ++n) {
+    const double most = any(0.1, 3);
+    std::vector<Node> nodes, ascent, descent;
+    std::vector<double> entered, left, both;
+    double at = any(-1000, 0);
+    const int windows = 1 + n % 3;
+    for (int window = 0; window < windows; ++window) {
+      const double soft = any(1, 50), width = any(1, 100), soft_end = any(1, 50);
+      nodes.insert(nodes.end(), {{at, 0}, {at + soft, most}, {at + soft + width, most}});
+      nodes.push_back({at + soft + width + soft_end, 0});
+      ascent = {{at, 0}, {at + soft, 1}};
+      descent = {{at + soft + width, most}, {at + soft + width + soft_end, 0}};
+      entered.push_back(at + 0.5 * soft);
+      left.push_back(at + soft + width + 0.5 * soft_end);
+      both.insert(both.end(), {entered.back(), left.back()});
+      at = nodes.back().at + any(1, 100);
+    }
+    Mode mode;
+    mode.gates = {elsewhere, {Datum::value, TransferFunction(nodes)}};
+    std::vector<Mode> modes{mode};
+    mode.gates = {{Datum::value, TransferFunction(descent)}, elsewhere, {Datum::value, TransferFunction(ascent)}};
+    if (windows == 1) modes.push_back(mode);
+    for (const Mode& one : modes) {
+      for (const auto& [side, expected] :
+           {std::pair{Side::entering, entered}, {Side::leaving, left}, {Side::both, both}}) {
+        const std::vector<double> met = met_values(one, side);
+        ASSERT_EQ(met.size(), expected.size()) << n;
+        for (std::size_t m = 0; m < met.size(); ++m) EXPECT_NEAR(met[m], expected[m], 1e-8) << n;
+      }
+    }
+  }
+  // Without a gate over value, or with one that is closed, there are none.
+  Mode none;
+  for (const Side side : {Side::entering, Side::leaving, Side::both}) {
+    none.gates = {elsewhere};
+    EXPECT_TRUE(met_values(none, side).empty());
+    none.gates.push_back({Datum::value, TransferFunction({{0, 0}, {1, 0}})});
+    EXPECT_TRUE(met_values(none, side).empty());
   }
 }
 

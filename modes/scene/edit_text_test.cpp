@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/fresh_folder.h"
 #include "modes/scene/scene_json.h"
 #include "solver/text/testing/shown.h"
 
@@ -100,8 +101,20 @@ TEST(EditText, NamesTheKeyThatIsWrong) {
             "mend.json: edits[0].reach_mm: there is no such key here; there are: path_mm, radius_mm, type");
   EXPECT_EQ(refusal_of_edits(one_edit(R"("type": "add", "type": "remove")")), "mend.json: type: is given twice");
   EXPECT_NE(refusal_of_edits(R"({"version": 1)").find("mend.json: "), std::string::npos);
-  EXPECT_EQ(testing::said_when([] { load_edits("/no/such.json"); }),
-            "/no/such.json: no such file of edits can be read");
+  // Too large for a whole number, though its lowest bits are those of 1.
+  for (const std::string version : {"4294967297", "-4294967295", "9223372036854775809"}) {
+    EXPECT_EQ(refusal_of_edits(R"({"edits": [], "version": )" + version + "}"),
+              "mend.json: version: " + version + " is not a whole number");
+  }
+}
+
+/// What is not there, and what is there and is a folder.
+TEST(EditText, AFileThatCannotBeReadIsNamed) {
+  const io::FreshFolder folder = io::temporary_folder();
+  for (const std::string& path : {std::string("/no/such.json"), std::string("/"), std::string("."),
+                                  folder.path().string(), (folder.path() / "none.json").string()}) {
+    EXPECT_EQ(testing::said_when([&] { load_edits(path); }), path + ": no such file of edits can be read");
+  }
 }
 
 TEST(EditText, AStructureWithoutAFileIsDrawnByItsContours) {

@@ -75,12 +75,7 @@ class StructureIndex {
     const auto of_scene = static_cast<std::size_t>(found - scene_.structures.begin());
     const auto known = std::find(read_.begin(), read_.end(), of_scene);
     const auto index = static_cast<std::size_t>(known - read_.begin());
-    if (known == read_.end()) {
-      read_.push_back(of_scene);
-    }
-    if (read_.size() > io::most_structures) {
-      throw InvalidInput(say("too-many-structures", io::most_structures));
-    }
+    if (known == read_.end()) read_.push_back(of_scene);
     return index;
   }
 
@@ -88,6 +83,10 @@ class StructureIndex {
   const Scene& scene_;
   std::vector<std::size_t>& read_;
 };
+
+void check_count(const std::vector<std::size_t>& structures) {
+  if (structures.size() > io::most_structures) throw InvalidInput(say("too-many-structures", io::most_structures));
+}
 
 /// A structure with a margin is told of, whether or not it is felt; what nothing reads is left out.
 void add_watched_structures(const Scene& scene, Plan& plan) {
@@ -98,6 +97,7 @@ void add_watched_structures(const Scene& scene, Plan& plan) {
       plan.fields = plan.fields | io::FieldSet::distance;
     }
   }
+  check_count(plan.structures);
   for (std::size_t i = 0; i < scene.structures.size(); ++i) {
     if (std::find(plan.structures.begin(), plan.structures.end(), i) == plan.structures.end()) {
       plan.left_out.push_back({"structure \"" + scene.structures[i].name + "\"", "no mode reads it",
@@ -273,6 +273,7 @@ Plan make_plan(const Scene& scene, io::FieldSet available, const Workspace& work
       plan.left_out.push_back(std::move(*left_out));
       plan.structures = structures_before;
     } else {
+      check_count(plan.structures);
       footprints.push_back(footprint);
       add(active, reads, plan);
     }

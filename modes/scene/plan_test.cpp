@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "modes/scene/scene_json.h"
 #include "modes/testing/test_rig.h"
@@ -111,6 +115,60 @@ TEST(Plan, of_every_starting_scene_feels_something) {
   for (const std::string& name : starting_scenes()) {
     EXPECT_FALSE(make_plan(load_scene(name), scan | FieldSet::vector, {}).modes.empty()) << name;
   }
+}
+
+/// Of more structures than a tick can read: those that a mode reads only where the scan lacks another of its fields are
+/// not read, and count for nothing. Each mode that is felt reads its own.
+TEST(Plan, reads_no_structure_for_a_mode_that_it_leaves_out) {
+  std::mt19937 random(7);
+  const auto below = [&random](std::size_t count) {
+    return std::uniform_int_distribution(std::size_t{0}, count - 1)(random);
+  };
+  int most_left_out = 0;
+  for (int n = 0; n < 100; ++n) {
+    Scene scene = testing::scene_of({});
+    for (std::size_t s = 0; s < io::most_structures + 3; ++s) {
+      scene.structures.push_back({.name = "s" + std::to_string(s), .file = "/a.dcm", .segment_number = 1});
+    }
+    std::set<std::size_t> expected;
+    std::vector<double> strengths;  // of the modes that are felt
+    for (std::size_t m = 0; m < 16; ++m) {
+      const bool is_felt = below(2) == 0;
+      const std::size_t count = is_felt ? io::most_structures : scene.structures.size();
+      const std::size_t own = below(count), gate = below(count);
+      Mode one = mode("friction");
+      one.strength_of = Datum::distance;
+      one.strength_structure = scene.structures[own].name;
+      one.strength_n = TransferFunction({{0, 0}, {100, 100}});
+      one.gates.push_back({Datum::distance, TransferFunction({{0, 0}, {100, 1}}), scene.structures[gate].name});
+      if (is_felt) {
+        expected.insert({own, gate});
+        strengths.push_back(static_cast<double>((1 + own) * (1 + gate)) / 100);
+      } else {
+        one.gates.push_back({Datum::low, TransferFunction({{-1000, 0}, {1000, 1}})});
+      }
+      scene.modes.push_back(one);
+    }
+    const Plan plan = make_plan(scene, FieldSet::value | FieldSet::gradient | FieldSet::distance, {});
+    EXPECT_EQ(std::set(plan.structures.begin(), plan.structures.end()), expected) << n;
+    EXPECT_EQ(plan.structures.size(), expected.size()) << n;
+    io::Sample sample;
+    for (std::size_t k = 0; k < plan.structures.size(); ++k) {
+      sample.distance[k].mm = 1 + static_cast<double>(plan.structures[k]);
+    }
+    ASSERT_EQ(plan.modes.size(), strengths.size()) << n;
+    for (std::size_t m = 0; m < strengths.size(); ++m) {
+      EXPECT_NEAR(plan.modes[m].strength(sample), strengths[m], 1e-9) << n;
+    }
+    int left_out_structures = 0;
+    for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+      const bool is_left_out = left_out(plan, "structure \"s" + std::to_string(s) + "\"") != nullptr;
+      EXPECT_EQ(is_left_out, !expected.contains(s)) << n << ", " << s;
+      left_out_structures += is_left_out ? 1 : 0;
+    }
+    most_left_out = std::max(most_left_out, left_out_structures);
+  }
+  EXPECT_GT(most_left_out, 3) << "else all of the first eight were always read";
 }
 
 TEST(Plan, refuses_a_scene_that_is_not_valid) {

@@ -150,6 +150,44 @@ TEST(RegionsLaws, ABoxInTheRoomIsTheBodyToItsOwnEdge) {
   }
 }
 
+/// A scan may end in padding on all sides: a round field of view, or one that was cropped or turned. The air that meets
+/// it is the room's all the same, and what is in the room is what it is without padding.
+TEST(RegionsLaws, TheRoomIsFoundWherePaddingIsAroundIt) {
+  constexpr std::int16_t padding_hu = -2000;
+  std::mt19937_64 random(37);
+  for (int n = 0; n < 12; ++n) {
+    const auto& [spacing, per_cell] = grids[static_cast<std::size_t>(n) % grids.size()];
+    const auto cells = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
+    const glm::ivec3 size{26, 27, 18}, extent{cells(10, 12), cells(10, 12), cells(10, 12)};
+    const glm::ivec3 first{cells(7, 8), cells(7, 8), cells(1, 4)};
+    const glm::ivec2 margin{cells(1, 3), cells(1, 3)};
+    io::Volume scan = room(size * per_cell, spacing);
+    scan.padding = {padding_hu, padding_hu};
+    put_box(scan, first * per_cell, extent * per_cell, soft_hu);
+    put_box(scan, (first + 4) * per_cell, per_cell, empty_hu);  // air in the body
+    const bool is_round = n / 4 == 1, is_bare = n / 4 == 2;
+    const auto is_padded = [&](const glm::ivec3& cell) {
+      if (is_bare) return false;
+      if (is_round) return glm::length(glm::dvec2(cell.x - 12.5, cell.y - 13)) > 12;
+      return cell.x < margin.x || cell.y < margin.y || cell.x >= size.x - margin.x || cell.y >= size.y - margin.y;
+    };
+    for_voxels(glm::ivec3(0), scan.geometry.dimensions, [&](const glm::ivec3& at) {
+      if (is_padded(at / per_cell)) stored(scan, at) = padding_hu;
+    });
+    const Regions regions(scan, 1);
+    std::array<int, 6> wrong{};
+    for_voxels(glm::ivec3(0), scan.geometry.dimensions, [&](const glm::ivec3& at) {
+      const glm::ivec3 cell = at / per_cell;
+      const Region truth = is_padded(cell)                ? Region::none
+                           : cell == first + 4            ? Region::inner_air
+                           : stored(scan, at) == empty_hu ? Region::room
+                                                          : Region::body;
+      wrong[static_cast<std::size_t>(truth)] += regions.at(at) != truth ? 1 : 0;
+    });
+    EXPECT_EQ(wrong, (std::array<int, 6>{})) << n;
+  }
+}
+
 /// Beside a body a plate is the table; where the plate is the larger of the two, which of them is the table is a guess.
 TEST(RegionsLaws, NothingIsATableThatOutweighsTheBody) {
   std::mt19937_64 random(34);

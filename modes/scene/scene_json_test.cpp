@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -135,6 +136,33 @@ TEST(SceneJson, every_key_comes_back) {
   const auto json = nlohmann::json::parse(with_every_key());
   const auto again = nlohmann::json::parse(to_json(scene_from_json(json.dump(), "everything")));
   EXPECT_EQ(again, json) << nlohmann::json::diff(json, again).dump(1);
+}
+
+/// A whole number is taken as it is or refused: none that is too large becomes another one.
+TEST(SceneJson, AWholeNumberThatIsTooLargeIsRefused) {
+  const struct {
+    const char *path, *before, *after;
+    std::int64_t sound;
+  } keys[] = {{"version", R"({"modes": [], "version": )", "}", 1},
+              {"structures[0].segment",
+               R"({"version": 1, "modes": [], "structures": [{"name": "a", "file": "/a.dcm", "segment": )", "}]}", 3},
+              {"subdivision.most", R"({"version": 1, "modes": [], "subdivision": {"most": )", "}}", 2},
+              {"subdivision.most_halts", R"({"version": 1, "modes": [], "subdivision": {"most_halts": )", "}}", 0},
+              {"filter.width", R"({"version": 1, "modes": [], "filter": {"type": "median", "width": )", "}}", 5}};
+  for (const auto& [path, before, after, sound] : keys) {
+    const auto said = [&, &before = before, &after = after](const std::string& value) {
+      return error_of(before + value + after);
+    };
+    EXPECT_EQ(said(std::to_string(sound)), "accepted") << path;
+    // Their lowest 32 bits are those of the sound number.
+    const std::string wrong[] = {std::to_string(sound + (std::int64_t{1} << 32)),
+                                 std::to_string(sound - (std::int64_t{1} << 32)),
+                                 std::to_string(sound + (std::int64_t{1} << 62)),
+                                 std::to_string(static_cast<std::uint64_t>(sound) + (std::uint64_t{1} << 63))};
+    for (const std::string& value : wrong) {
+      EXPECT_EQ(said(value), "mine.json: " + std::string(path) + ": " + value + " is not a whole number");
+    }
+  }
 }
 
 /// What is written wrong is not left at its default in silence, whichever object it is in.

@@ -99,6 +99,25 @@ TEST(StartingScene, comes_first_of_those_that_are_offered) {
   EXPECT_EQ(offered_scenes("ct-chest", "CT", false).back().made_for, "a velocity field");
 }
 
+/// The list says of each scene that does not suit the scan what it was made for, not what the scan is.
+TEST(StartingScene, says_what_the_others_were_made_for) {
+  for (const std::string modality : {"CT", "MR", "PT", "OT", ""}) {
+    for (const bool has_vectors : {false, true}) {
+      for (const std::string& first : starting_scenes()) {
+        for (const OfferedScene& scene : offered_scenes(first, modality, has_vectors)) {
+          const bool is_ct = scene.name.starts_with("ct-"), is_mr = scene.name.starts_with("mr-");
+          const bool suits = scene.name == first || (is_ct ? modality == "CT" : is_mr ? modality == "MR" : has_vectors);
+          EXPECT_EQ(scene.made_for, suits   ? ""
+                                    : is_ct ? "CT"
+                                    : is_mr ? "MR"
+                                            : "a velocity field")
+              << scene.name << " for " << modality;
+        }
+      }
+    }
+  }
+}
+
 TEST(StartingScene, is_the_modalitys_where_nothing_is_known) {
   EXPECT_EQ(offered("CT", "", ""), "ct-skin-and-bone");
   EXPECT_EQ(offered("CT", "WHOLEBODY", "CT Body 3.0"), "ct-skin-and-bone");

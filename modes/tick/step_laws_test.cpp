@@ -43,8 +43,24 @@ class Shells : public io::FieldSource {
   }
 };
 
-Scene everything() {
-  Scene scene = scene_of({surface(TransferFunction({{0.1, 0}, {1, 0.7}, {3, 2}}), Datum::value),
+/// The same in another unit.
+class ShellsIn final : public Shells {
+ public:
+  explicit ShellsIn(double unit) : unit_(unit) {}
+  io::Sample sample(const io::Vec3& p, io::FieldSet wanted) const noexcept override {
+    io::Sample sample = Shells::sample(p, wanted);
+    sample.value *= unit_;
+    sample.gradient *= unit_;
+    sample.vector *= unit_;
+    return sample;
+  }
+
+ private:
+  double unit_;
+};
+
+Scene everything(double unit = 1) {
+  Scene scene = scene_of({surface(TransferFunction({{0.1 * unit, 0}, {1 * unit, 0.7}, {3 * unit, 2}}), Datum::value),
                           mode_of("friction", TransferFunction(0.1), Datum::gradient_magnitude),
                           mode_of("follow", TransferFunction(0.05), Datum::vector_magnitude),
                           mode_of("force", TransferFunction(0.1), Datum::vector_magnitude)});
@@ -121,6 +137,28 @@ TEST(StepLaws, TheWorkspaceDoesNotMatter) {
     }
   }
   met.expect_all();
+}
+
+/// The same numbers in a larger or a smaller unit, by a power of two, are felt the same to the last bit.
+TEST(StepLaws, TheUnitOfTheScanDoesNotMatter) {
+  const Shells shells;
+  Met met;
+  for (const double unit : {0x1p-40, 0x1p-12, 0x1p20}) {
+    const ShellsIn other_shells(unit);
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      Hand plain(everything(), shells), other(everything(unit), other_shells);
+      for (const Vec3& probe : path_mm(seed)) {
+        plain.move_to(probe);
+        other.move_to(probe);
+        ASSERT_EQ(plain.result.proxy_m, other.result.proxy_m) << unit << ", " << seed;
+        ASSERT_EQ(plain.result.force_n, other.result.force_n) << unit << ", " << seed;
+        ASSERT_EQ(plain.result.halts, other.result.halts) << unit << ", " << seed;
+        met += plain.result;
+      }
+    }
+  }
+  EXPECT_GT(met.held, 50);
+  EXPECT_GT(met.halts, 20);
 }
 
 /// A travel in one tick is the same as its sub-steps in ticks of their own.
@@ -212,6 +250,47 @@ TEST(StepLaws, AChangeToTheSameSceneIsNone) {
       ASSERT_LT(glm::length(result.force_n - plain.result.force_n), same_n) << seed << " tick " << n;
     }
   }
+}
+
+/// At its beginning a change is the scene that is left, at its end the one that comes, though the other one has no
+/// surface: what one of them holds is held, however fast the hand slides along it.
+TEST(StepLaws, AChangeBeginsAsTheSceneThatIsLeftAndEndsAsTheOneThatComes) {
+  const Shells shells;
+  Scene walls = everything();
+  walls.subdivision.most = 1;
+  Scene no_walls = walls;
+  no_walls.modes.erase(no_walls.modes.begin());
+  const Plan without = make_plan(no_walls, shells.available(), {});
+  solver::Chain chain({.capacity = most_primitives});
+  const auto scratch = std::make_unique<StepScratch>();
+  int slid = 0;
+  for (const bool is_left : {true, false}) {
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      std::mt19937 random(seed);
+      const Vec3 u = glm::normalize(vector(random, 1)), v = glm::normalize(glm::cross(u, vector(random, 1)));
+      Hand plain(walls, shells);
+      for (int n = 0; n < 400; ++n) {
+        // In and out through the shells, and round them by 0.6 mm a tick.
+        const Vec3 probe = (20 + 5 * std::cos(0.05 * n)) * (std::cos(0.03 * n) * u + std::sin(0.03 * n) * v);
+        Touch touch = plain.touch;
+        touch.changing = true;
+        touch.contact = is_left ? HeldSurfaces{} : plain.touch.contact;
+        touch.leaving = is_left ? plain.touch.contact : HeldSurfaces{};
+        const SceneOnData with{&plain.plan, &shells}, other{&without, &shells};
+        const StepResult result =
+            step({.from = is_left ? with : other, .to = is_left ? other : with, .part = is_left ? 0.0 : 1.0},
+                 plain.plan.workspace.to_device(probe), touch, chain, *scratch);
+        const Vec3 was = plain.proxy_mm();
+        plain.move_to(probe);
+        ASSERT_EQ(result.halts, plain.result.halts) << seed << " tick " << n;
+        ASSERT_LT(glm::length(result.proxy_m - plain.result.proxy_m), 1e-3 * same_mm) << seed << " tick " << n;
+        ASSERT_LT(glm::length(result.force_n - plain.result.force_n), same_n) << seed << " tick " << n;
+        const bool is_fast = glm::distance(plain.proxy_mm(), was) > walls.subdivision.proxy_step_mm;
+        slid += is_fast && plain.result.halts == 0 && plain.result.hold == HoldState::held ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(slid, 50);
 }
 
 }  // namespace

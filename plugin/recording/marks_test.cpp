@@ -24,6 +24,7 @@ modes::Scene skin_and_bone() {
   scene.modes.push_back({.type = "friction", .name = "friction"});
   scene.modes.push_back({.type = "force", .name = "push"});
   scene.modes.push_back({.type = "keep_out", .name = "liver"});
+  scene.modes.push_back({.type = "landmark", .name = "entry"});
   return scene;
 }
 
@@ -101,7 +102,7 @@ TEST(MarkPresses, SayWhichBoundaryHeldAndThatNoneDid) {
     const char* boundary;
   };
   for (const Case& one : {Case{0, 0.06, "skin"}, Case{0, 0.04, ""}, Case{2, 3, ""}, Case{3, 3, ""}, Case{4, 3, "liver"},
-                          Case{7, 3, ""}}) {
+                          Case{5, 3, "entry"}, Case{7, 3, ""}}) {
     Hand hand;
     PrimitiveRecord share;
     share.mode = one.mode;
@@ -213,6 +214,22 @@ TEST(MarkPresses, TwoMillimetersTellAMarkFromAPath) {
   };
   EXPECT_EQ(points_of({0.0, 0.19, 0.21, 0.40, 3.0, 3.1}), (std::vector<double>{0, 0.21, 3, 3.1}));
   EXPECT_EQ(points_of({0.0, 0.2, 0.3, 3.0}), (std::vector<double>{0, 0.2, 3})) << "0.2 mm is a step";
+}
+
+/// A twentieth of a path's length is allowed at its ends, however long it is.
+TEST(Marks, ATwentiethOfAPathIsAsGoodAsNothing) {
+  for (const double length_mm : {0.5, 3.0, 40.0, 100.0, 900.0}) {
+    for (const auto& [part, contact] : {std::pair{0.0, PathContact::nowhere},
+                                        {0.04, PathContact::nowhere},
+                                        {0.06, PathContact::partly},
+                                        {0.5, PathContact::partly},
+                                        {0.94, PathContact::partly},
+                                        {0.96, PathContact::all_along},
+                                        {1.0, PathContact::all_along}}) {
+      EXPECT_EQ(contact_of({.length_mm = length_mm, .touched_mm = part * length_mm}), contact)
+          << part << " of " << length_mm;
+    }
+  }
 }
 
 }  // namespace

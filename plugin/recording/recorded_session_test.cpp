@@ -151,5 +151,68 @@ TEST(RecordedSession, AChangeMovesTheReachFromTheOneBefore) {
   }
 }
 
+/// Each change begins where the scene before it was, however many there were.
+TEST(RecordedSession, EveryChangeBeginsAtTheSceneBeforeIt) {
+  constexpr std::uint32_t scenes = 6;
+  const auto center_of = [](std::uint32_t n) { return glm::dvec3(5.0 * n * n, -3.0 * n, 20.0 - 7.0 * n); };
+  Recording recording;
+  for (std::uint32_t n = 0; n < scenes; ++n) {
+    Reach reach = first_reach;
+    reach.center_mm = center_of(n);
+    recording.scenes.push_back({.epoch = n, .scene = scene_at("scene", reach), .scan_hash = hash_of(felt_scan())});
+    for (const double part : {0.0, 0.25, 1.0}) {
+      TickRecord tick;
+      tick.index = recording.ticks.size();
+      tick.time_s = 1e-3 * static_cast<double>(tick.index);
+      tick.scene_epoch = n;
+      tick.change_part = part;
+      recording.ticks.push_back(tick);
+    }
+  }
+  const RecordedSession session(recording, felt_scan());
+  ASSERT_EQ(session.size(), 3 * scenes);
+  for (std::size_t n = 0; n < session.size(); ++n) {
+    const TickRecord& tick = session.tick(n);
+    const std::uint32_t now = tick.scene_epoch;
+    const glm::dvec3 before_mm = center_of(now == 0 ? 0 : now - 1);
+    const glm::dvec3 wanted_mm = before_mm + tick.change_part * (center_of(now) - before_mm);
+    EXPECT_LT(glm::distance(session.workspace(n).center_mm, wanted_mm), 1e-9) << n;
+    EXPECT_LT(glm::distance(session.probe_mm(n), wanted_mm), 1e-9) << n;
+  }
+}
+
+/// Distances are recorded of the structures that a mode of the tick's scene reads, in the order of its modes, and of
+/// those with a margin after them.
+TEST(RecordedSession, EachTickKnowsTheStructuresOfItsScene) {
+  struct Case {
+    std::string structures, modes;
+    std::vector<std::size_t> measured;
+  };
+  const std::string of_liver = R"({"type": "surface", "structure": "liver", "strength_n": 1})";
+  const std::string of_aorta = R"({"type": "surface", "structure": "aorta", "strength_n": 1})";
+  const std::string three = R"({"name": "liver", "file": "a", "segment": 1}, {"name": "unread", "file": "a",
+      "segment": 2}, {"name": "aorta", "file": "a", "segment": 3})";
+  const std::string with_margin = R"({"name": "near", "file": "a", "segment": 4, "margin_mm": 3}, )" + three;
+  const std::vector<Case> cases{{three, of_liver, {0}},
+                                {three, of_aorta + "," + of_liver, {2, 0}},
+                                {"", R"({"type": "surface", "strength_n": 1})", {}},
+                                {with_margin, of_aorta, {3, 0}}};
+  Recording recording;
+  for (std::uint32_t n = 0; n < cases.size(); ++n) {
+    recording.scenes.push_back({.epoch = n,
+                                .scene = R"({"version": 1, "structures": [)" + cases[n].structures +
+                                         R"(], "modes": [)" + cases[n].modes + "]}",
+                                .scan_hash = hash_of(felt_scan()),
+                                .half_extent_m = glm::dvec3(0.1)});
+    TickRecord tick;
+    tick.index = n;
+    tick.scene_epoch = n;
+    recording.ticks.push_back(tick);
+  }
+  const RecordedSession session(recording, felt_scan());
+  ASSERT_EQ(session.size(), cases.size());
+  for (std::size_t n = 0; n < cases.size(); ++n) EXPECT_EQ(session.structures(n), cases[n].measured) << n;
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -127,6 +127,29 @@ TEST(RecorderClock, FlushesOnceASecond) {
   }
 }
 
+/// By ticks, too: a session that does not wait for the clock may be over within a second.
+TEST(RecorderClock, FlushesEvery2048TicksWhileTheClockStands) {
+  for (const std::uint64_t batch : {700U, 2048U}) {
+    const auto file = fresh_path("by_ticks.h5");
+    TickRing ring(1U << 14U);
+    HeldClock clock;
+    Recorder recorder(ring, file, {}, {.now = clock.now()});
+    std::uint64_t ticks = 0;
+    const auto write = [&](std::uint64_t count) {
+      push_ticks(ring, count);
+      await_written(recorder, ticks += count);
+    };
+    for (const std::uint64_t flushed : {2048U, 4096U}) {
+      for (const std::uint64_t from = ticks; ticks < from + 2048;) write(batch);
+      write(1);  // what follows a batch is over when the next batch is written
+      const auto left = fresh_path("left.h5");
+      std::filesystem::copy_file(file.string() + ".partial", left);
+      EXPECT_GE(read_recording(left).ticks.size(), flushed) << batch;
+    }
+    recorder.finish();
+  }
+}
+
 /// A recording that fails ends with what was flushed last, to the byte, and says where that is.
 TEST(RecorderClock, AFailureLeavesWhatWasFlushed) {
   const auto file = fresh_path("failed.h5"), left = fresh_path("left.h5");

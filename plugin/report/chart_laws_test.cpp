@@ -152,5 +152,39 @@ TEST(ChartLaws, ALegendsDiscStandsWhereALineWould) {
   }
 }
 
+/// The names of upright marks stand below one another, so that those of neighbors can be read.
+TEST(ChartLaws, TheNamesOfNeighboringMarksStandBelowOneAnother) {
+  constexpr int width = 500, height = 300;
+  constexpr std::array words{"skin", "bone", "Halsschlagader", "air"};
+  const ChartStyle style;
+  for (const double apart : {0.0, 0.002, 0.05}) {
+    int last_before = 0;
+    for (std::size_t red = 0; red < words.size(); ++red) {
+      Chart chart;
+      chart.x = {.minimum = 0, .maximum = 1, .numbered = false};
+      chart.y = {.minimum = 0, .maximum = 1};
+      for (std::size_t n = 0; n < words.size(); ++n) {
+        chart.marks.push_back({0.3 + apart * static_cast<double>(n), words[n], n == red ? Color{1, 0, 0} : Color{0, 0, 1}});
+      }
+      Canvas canvas(width, height, colors::white);
+      draw(canvas, std::span(&chart, 1), style);
+      // Right of its own line, where its name begins.
+      const int line = static_cast<int>(style.left + chart.marks[red].at * (width - style.left - style.right));
+      int first = height, last = -1;
+      for (int row = 0; row < height; ++row) {
+        for (int column = line + 4; column < line + 30; ++column) {
+          const auto [r, g, b] = pixel_in(canvas, column, row);
+          if (r < g + 80 || r < b + 80) continue;
+          first = std::min(first, row);
+          last = std::max(last, row);
+        }
+      }
+      ASSERT_GE(last, 0) << words[red];
+      EXPECT_GT(first, last_before) << words[red] << " " << apart;
+      last_before = last;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate::plugin

@@ -76,6 +76,28 @@ TEST(Chart, LargerValuesStandHigher) {
   }
 }
 
+/// A bar stands on the axis, and its top is where its value is.
+TEST(Chart, ABarStandsOnTheAxis) {
+  constexpr int width = 400, height = 300;
+  const ChartStyle style;
+  const double low_end = height - style.bottom, high_end = style.top;
+  for (const bool logarithmic : {false, true}) {
+    for (const double part : {0.1, 0.3, 0.5, 0.8, 0.95}) {
+      Canvas canvas(width, height, colors::white);
+      Chart chart;
+      chart.x = {.minimum = 0, .maximum = 2};
+      chart.y = {.logarithmic = logarithmic, .minimum = 1, .maximum = 100};
+      const double value = logarithmic ? std::pow(100, part) : 1 + 99 * part;
+      chart.curves.push_back(
+          {.x = {0.5, 1.5}, .y = {value, value}, .color = {1, 0, 0}, .style = Curve::Style::bars});
+      draw(canvas, std::span(&chart, 1), style);
+      const auto [first, last] = rows_in_red(canvas);
+      EXPECT_NEAR(first, low_end + part * (high_end - low_end), 2) << part;
+      EXPECT_NEAR(last + 1, low_end, 2) << part;
+    }
+  }
+}
+
 /// Without limits a twentieth of the range is left above the values and below them, wherever they lie.
 TEST(Chart, ATwentiethOfTheRangeIsLeftAtBothEnds) {
   constexpr int height = 300;

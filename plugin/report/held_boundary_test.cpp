@@ -3,9 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <map>
 #include <memory>
+#include <optional>
+#include <random>
+#include <vector>
 
 #include "io/fields/boundary_uncertainty.h"
 #include "modes/scene/scene_json.h"
@@ -181,6 +187,35 @@ TEST(HeldBoundary, IsKnownInEachTickAsWellAsAtItsPlace) {
   EXPECT_TRUE(std::isnan(told(here, 0.05))) << "not felt";
   EXPECT_FALSE(std::isnan(told(here, 0.051)));
   EXPECT_TRUE(std::isnan(told(here, 0.3, 0))) << "friction";
+}
+
+/// Of several surfaces that push, the one that pushes most holds the proxy, in whatever order they are told.
+TEST(HeldBoundary, IsTheSurfaceThatPushesMost) {
+  const modes::Scene several = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "surface", "strength_n": 1}, {"type": "surface", "strength_n": 2},
+          {"type": "friction", "strength_n": 0.1}, {"type": "surface", "strength_n": 1},
+          {"type": "surface", "strength_n": 1}]})",
+      "several");
+  constexpr std::uint32_t friction = 2;
+  const modes::Plan plan = modes::make_plan(several, io::FieldSet::value | io::FieldSet::gradient, {});
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int round = 0; round < 300; ++round) {
+    const double scale_n = round % 3 == 0 ? 0.06 : 1;
+    std::vector<PrimitiveRecord> shares;
+    for (std::uint32_t mode = 0; mode < 5; ++mode) {
+      shares.push_back(
+          {.mode = mode, .force_n = {scale_n * any(random), scale_n * any(random), scale_n * any(random)}});
+    }
+    std::shuffle(shares.begin(), shares.end(), random);
+    std::map<double, std::size_t> by_force;
+    for (const PrimitiveRecord& share : shares) {
+      const double force_n = std::hypot(share.force_n[0], share.force_n[1], share.force_n[2]);
+      if (share.mode != friction && force_n > 0.05) by_force[force_n] = share.mode;
+    }
+    const auto wanted = by_force.empty() ? std::nullopt : std::optional<std::size_t>(by_force.rbegin()->second);
+    EXPECT_EQ(holding_surface(shares, plan), wanted) << round;
+  }
 }
 
 }  // namespace

@@ -134,6 +134,27 @@ TEST(MarksTables, SlicersMarkupsAreAtTheMarks) {
   }
 }
 
+/// 3D Slicer shows the label beside a point, and the description in its table.
+TEST(MarksTables, SlicersPointsAreNamedAsTheMarks) {
+  const nlohmann::json markups = nlohmann::json::parse(marks_as_markups(marks()))["markups"];
+  using Words = std::vector<std::string>;
+  const auto words_of = [](const nlohmann::json& markup, const char* key) {
+    Words all;
+    for (const auto& point : markup["controlPoints"]) all.push_back(point[key].get<std::string>());
+    return all;
+  };
+  const std::map<std::string, Words> labels{{"Fiducial", {"A, left", "B", "C"}},
+                                            {"Line", {"B", "C"}},
+                                            {"Angle", {"C", "A, left", "B"}},
+                                            {"Curve", {"P-1", "P-2"}}};
+  for (const auto& markup : markups) {
+    EXPECT_EQ(words_of(markup, "label"), labels.at(markup["type"])) << markup["type"];
+    if (markup["type"] == "Fiducial") {
+      EXPECT_EQ(words_of(markup, "description"), (Words{"skin", "bone", ""})) << "the boundary";
+    }
+  }
+}
+
 TEST(MarksTables, AReportsPointsLengthsAndAnglesAreTheMarks) {
   const io::MeasurementReport report = report_of(marks());
   ASSERT_EQ(report.points.size(), 3U);

@@ -86,7 +86,7 @@ std::vector<Band> tissues_crossed(const Profile& profile, const std::vector<doub
   std::string last;
   for (std::size_t n = 0; n < depths.size(); ++n) {
     const std::string name = tissue_of(profile, profile.stroke[n].value_passed);
-    if (name == last && !bands.empty()) {
+    if (!name.empty() && name == last) {
       bands.back().to = depths[n];
     } else if (!name.empty()) {
       bands.push_back({depths[n], depths[n], name, bands.size() % 2 == 0 ? darker : lighter});

@@ -176,5 +176,42 @@ TEST(StrokePicture, ColorsAreReadOrReplaced) {
   }
 }
 
+/// A band ends at the last point of its own tissue: what belongs to none has no band.
+TEST(StrokePicture, ABandIsOfTheTissueAtEachOfItsPoints) {
+  const double none = std::nan("");
+  const std::vector<std::vector<double>> ways{{1, 1, none, none, none, 2, 2},
+                                              {none, none, 1, 1, none, none},
+                                              {1, none, none, 1, 1, none},
+                                              {1, 1, 2, none, 2, 2, none, none, none},
+                                              {none, none},
+                                              {1, 7, 7, 7, 1, 2}};  // 7 is of no tissue
+  Profile profile = through_the_skin();
+  profile.unit = "";
+  profile.scene.tissues = {{.name = "one", .low = 0.5, .high = 1.5, .softness = 1},
+                           {.name = "two", .low = 1.5, .high = 2.5, .softness = 1}};
+  const auto name_of = [](double value) { return value == 1 ? "one" : value == 2 ? "two" : ""; };
+  for (const std::vector<double>& way : ways) {
+    profile.stroke.clear();
+    for (std::size_t n = 0; n < way.size(); ++n) {
+      StrokePoint point;
+      point.position_mm = {0, static_cast<double>(n), 0};
+      point.value_passed = way[n];
+      profile.stroke.push_back(point);
+    }
+    const std::vector<Band> bands = charts_of(profile)[1].bands;
+    std::size_t stretches = 0;
+    for (std::size_t n = 0; n < way.size(); ++n) {
+      const std::string name = name_of(way[n]);
+      if (!name.empty() && (n == 0 || name_of(way[n - 1]) != name)) ++stretches;
+      std::string drawn;
+      for (const Band& band : bands) {
+        if (band.from <= static_cast<double>(n) && static_cast<double>(n) <= band.to) drawn += band.label;
+      }
+      EXPECT_EQ(drawn, name) << n << " of " << way.size();
+    }
+    EXPECT_EQ(bands.size(), stretches) << way.size();
+  }
+}
+
 }  // namespace
 }  // namespace palpate::plugin

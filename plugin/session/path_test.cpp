@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "io/archive/testing/says.h"
 #include "plugin/testing/test_files.h"
 
 namespace palpate::plugin {
@@ -38,13 +37,19 @@ TEST(PathWithButtons, IsReadByItsHeader) {
   EXPECT_EQ(path[1].buttons, 2U);
   EXPECT_EQ(path[1].position_mm.z, 3);
   for (const char* const wrong : {"-1", "1.5", "65536"}) {
-    const std::string text = std::string("time_s,x_mm,y_mm,z_mm,buttons\n0,1,2,3,0\n1,1,2,3,") + wrong + "\n";
-    try {
-      read_path_csv(write("no-buttons.csv", text));
-      ADD_FAILURE() << wrong;
-    } catch (const std::runtime_error& error) {
-      EXPECT_TRUE(io::testing::says(error.what(),
-                                    "{}, line {}: buttons {} is no bit mask: 0 is none, 1 the first, 2 the second"));
+    for (const int comments : {0, 1, 4}) {
+      std::string text = "time_s,x_mm,y_mm,z_mm,buttons\n0,1,2,3,0\n";
+      for (int n = 0; n < comments; ++n) text += n % 2 == 0 ? "# and then\n" : "\n";
+      text += std::string("1,1,2,3,") + wrong + "\n";
+      const auto file = write("no-buttons.csv", text);
+      try {
+        read_path_csv(file);
+        ADD_FAILURE() << wrong;
+      } catch (const std::runtime_error& error) {
+        EXPECT_EQ(error.what(),
+                  fmt::format("{}, line {}: buttons {} is no bit mask: 0 is none, 1 the first, 2 the second",
+                              file.string(), 3 + comments, wrong));
+      }
     }
   }
   EXPECT_THROW(read_path_csv(write("short.csv", "time_s,x_mm,y_mm,z_mm,buttons\n0,1,2,3\n1,1,2,3\n")),

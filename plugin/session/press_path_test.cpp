@@ -96,6 +96,36 @@ TEST(PressPath, IsTheScriptThatItsNumbersSay) {
   }
 }
 
+/// At its deepest the hand pulls with what the last boundary takes 2 mm beyond it, whatever the first one takes.
+TEST(PressPath, AimsThroughTheLastBoundaryHoweverStrongItIs) {
+  constexpr double apart_mm = 10, weak_n = 1, strong_n = 2.5;
+  // A small step of the value takes 1 N, and a large one 2.5 N.
+  const modes::Scene scene = modes::scene_from_json(
+      R"({"version": 1, "modes": [{"type": "surface", "side": "both", "strength_n": {"of": "gradient_per_mm",
+          "nodes": [[20, 0], [60, 1], [3000, 1], [6000, 2.5]]}}]})",
+      "test");
+  modes::Workspace workspace;
+  workspace.mm_per_m = 1000;
+  struct Case {
+    double first_step_hu, last_step_hu, last_n;
+  };
+  for (const Case& one : {Case{1000, 1000, weak_n}, Case{1000, 5000, strong_n}, Case{5000, 1000, weak_n},
+                          Case{5000, 5000, strong_n}}) {
+    const double first_hu = -1000 + one.first_step_hu;
+    const auto source = std::make_shared<testdata::AnalyticSource>(
+        testdata::make_slab({0, 0, -1},
+                            std::vector<testdata::Layer>{{0, first_hu}, {apart_mm, first_hu + one.last_step_hu}}),
+        0.2);
+    const modes::Plan plan = modes::make_plan(scene, source->available(), workspace);
+    const PressPath path = make_press_path(plan, *source, {0, 0, 10}, {0, 0, -20});
+    const double wanted_mm = apart_mm + 2 + one.last_n * workspace.mm_per_m / device::HandModel{}.stiffness;
+    for (const std::size_t deepest : {7U, 8U}) {
+      EXPECT_NEAR(path.contact_mm.z - path.hand.at(deepest).position_mm.z, wanted_mm, 0.03 * wanted_mm + 0.1)
+          << one.first_step_hu << " " << one.last_step_hu;
+    }
+  }
+}
+
 struct Pressed {
   modes::Plan plan;
   std::shared_ptr<const io::FieldSource> source;

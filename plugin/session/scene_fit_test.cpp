@@ -44,6 +44,10 @@ TEST(SceneFit, NamesTheFieldsThatEveryModeLacks) {
   EXPECT_NE(why_not(follow).find("this scene"), std::string::npos) << why_not(follow);
   EXPECT_NE(why_not(follow, "stream").find("the scene \"stream\""), std::string::npos);
   EXPECT_NE(why_not(gated), "") << "a gate reads, too";
+  for (const std::string type : {"surface", "friction", "force"}) {
+    const std::string strength = R"({"type": ")" + type + R"(", "strength_n": {"of": "vector", "nodes": [[0, 0], [9, 1]]}})";
+    EXPECT_NE(why_not(strength).find("vector field"), std::string::npos) << type << "'s strength reads, too";
+  }
   std::string off = surface;
   off.insert(1, "\"enabled\": false, ");
   EXPECT_NE(why_not(follow + "," + off), "") << "what is switched off is not felt";

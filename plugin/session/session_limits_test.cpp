@@ -1,6 +1,7 @@
 /// What scene and stylus allow, what was asked of the session, and what comes out at the stylus: each limit alone, in
 /// its own unit, reached to the tick.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -227,7 +228,7 @@ TEST(SessionLimits, WhatWasBeforeArmingDoesNotCount) {
 }
 
 /// Whatever a scene asks for, on whatever device: no limit is looser than the program's or the device's, a tighter one
-/// stays as it is, and what is drawn down is said, in one sentence each and with its key.
+/// stays as it is, and what is drawn down is said, in one sentence each: its key, what was asked for, and what is felt.
 TEST(SessionLimits, ASceneOnlyTightens) {
   std::mt19937_64 random(1);
   const auto any = [&](double usual) {
@@ -248,10 +249,17 @@ TEST(SessionLimits, ASceneOnlyTightens) {
     std::string said;
     for (const Text& text : drawn_down(scene, device)) said += text + "\n";
     const auto says = [&](const char* key) { return said.find(key) != std::string::npos; };
-    EXPECT_EQ(says("force_limit_n"), force_n < scene.limits.force_n);
-    EXPECT_EQ(says("slew_limit_n_per_ms"), scene.limits.slew_n_per_ms * 1e3 > 1000);
-    EXPECT_EQ(says("ramp_s"), scene.limits.ramp_s < 0.25);
-    EXPECT_EQ(says("speed_limit_m_per_s"), scene.limits.speed_m_per_s > 1);
+    const auto is_drawn_down = [&](const char* key, double asked, double felt, const char* unit) {
+      const bool is_told = says(fmt::format("limits.{} of {:g} is reduced to {:g} {},", key, asked, felt, unit).c_str());
+      EXPECT_EQ(is_told, says(key)) << said;
+      return is_told;
+    };
+    EXPECT_EQ(is_drawn_down("force_limit_n", scene.limits.force_n, force_n, "N"), force_n < scene.limits.force_n);
+    EXPECT_EQ(is_drawn_down("slew_limit_n_per_ms", scene.limits.slew_n_per_ms, 1, "N/ms"),
+              scene.limits.slew_n_per_ms * 1e3 > 1000);
+    EXPECT_EQ(is_drawn_down("ramp_s", scene.limits.ramp_s, 0.25, "s"), scene.limits.ramp_s < 0.25);
+    EXPECT_EQ(is_drawn_down("speed_limit_m_per_s", scene.limits.speed_m_per_s, 1, "m/s"),
+              scene.limits.speed_m_per_s > 1);
     EXPECT_EQ(says("stiffness of"), stiffness_for(scene, device) < scene.stiffness_n_per_m);
   }
   EXPECT_TRUE(drawn_down({.limits = {.force_n = 1e9}}, {.force_axes = 0}).empty()) << "without motors";

@@ -4,9 +4,13 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "plugin/structures/scene_structures.h"
 #include "plugin/structures/shared_distance.h"
 #include "plugin/structures/study_structures.h"
 
@@ -93,6 +97,67 @@ TEST(DrawnStructure, ItIsKnownByItsName) {
   EXPECT_FALSE(is_same(structure, of_file));
   EXPECT_EQ(contours_of(of_file), nullptr);
   EXPECT_EQ(making_edits(of_file), 0U);
+}
+
+/// Distances are told as far as they were asked for, also where the same contours are held with another reach.
+TEST(DrawnStructure, EachReachHasItsOwnField) {
+  const io::ContoursEdit contours = cylinder({0, 0, 0}, 12, 15);
+  const io::Geometry scan = lattice();
+  std::vector<std::shared_ptr<const io::DistanceField>> held;
+  for (const double reach_mm : {5.0, 3.0, 12.0, 8.0}) {
+    held.push_back(shared_distance(contours, scan, reach_mm));
+    EXPECT_EQ(held.back()->reach_mm(), reach_mm);
+    EXPECT_NEAR(held.back()->sample({12 + reach_mm - 1, 0, 0}).mm, 1 - reach_mm, 0.2) << reach_mm;
+    EXPECT_EQ(shared_distance(contours, scan, reach_mm), held.back());
+  }
+}
+
+/// What is loaded of a scene with one structure, which is drawn.
+LoadedStructure loaded(const modes::SceneStructure& structure) {
+  modes::Scene scene;
+  scene.structures = {structure};
+  modes::Plan plan;
+  plan.structures = {0};
+  io::Volume scan;
+  scan.geometry = lattice();
+  return load_structures(scene, plan, scan, {}).at(0);
+}
+
+TEST(DrawnStructure, OffTheScanIsSaidToBe) {
+  for (const io::Vec3& middle : {io::Vec3(0), io::Vec3(40, 0, 0), io::Vec3(70, 0, 0), io::Vec3(0, -70, 0),
+                                 io::Vec3(0, 0, 70), io::Vec3(300, 300, 300)}) {
+    const LoadedStructure drawn = loaded(named("drawn", cylinder(middle, 12, 9)));
+    std::string said;
+    for (const Text& warning : drawn.warnings) said += warning;
+    // The scan ends at 32 mm, and the structure is 12 mm wide to each side.
+    EXPECT_EQ(said, glm::length(middle) < 60 ? ""
+                                             : "scene: \"drawn\" lies wholly outside the scan: choose one that was "
+                                               "outlined on this scan")
+        << middle.x;
+  }
+}
+
+/// The edit that cannot be done is named by its place in the list, whatever stands before it and after it.
+TEST(DrawnStructure, TheEditThatCannotBeDoneIsNamedByItsNumber) {
+  constexpr std::size_t edits = 5;
+  for (std::size_t wrong = 2; wrong <= edits; ++wrong) {
+    modes::SceneStructure structure = named("drawn", cylinder({0, 0, 0}, 12, 9));
+    for (std::size_t n = 2; n <= edits; ++n) {
+      if (n == wrong) {
+        structure.edits.emplace_back(io::TraceEdit{.points_mm = {{28, 0, 0}}, .known_to_mm = {}, .reach_mm = 4});
+      } else {
+        structure.edits.emplace_back(
+            io::AddEdit{.tube = {.path_mm = {{0, 12, static_cast<double>(n)}}, .radius_mm = 3}});
+      }
+    }
+    try {
+      loaded(structure);
+      ADD_FAILURE() << wrong;
+    } catch (const std::invalid_argument& error) {
+      const std::string said = error.what();
+      EXPECT_TRUE(said.starts_with("structure \"drawn\": edit " + std::to_string(wrong) + ": trace: ")) << said;
+    }
+  }
 }
 
 }  // namespace
