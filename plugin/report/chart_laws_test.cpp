@@ -164,7 +164,8 @@ TEST(ChartLaws, TheNamesOfNeighboringMarksStandBelowOneAnother) {
       chart.x = {.minimum = 0, .maximum = 1, .numbered = false};
       chart.y = {.minimum = 0, .maximum = 1};
       for (std::size_t n = 0; n < words.size(); ++n) {
-        chart.marks.push_back({0.3 + apart * static_cast<double>(n), words[n], n == red ? Color{1, 0, 0} : Color{0, 0, 1}});
+        chart.marks.push_back(
+            {0.3 + apart * static_cast<double>(n), words[n], n == red ? Color{1, 0, 0} : Color{0, 0, 1}});
       }
       Canvas canvas(width, height, colors::white);
       draw(canvas, std::span(&chart, 1), style);
