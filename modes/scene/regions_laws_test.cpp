@@ -156,12 +156,13 @@ TEST(RegionsLaws, TheRoomIsFoundWherePaddingIsAroundIt) {
   constexpr std::int16_t padding_hu = -2000;
   std::mt19937_64 random(37);
   for (int n = 0; n < 12; ++n) {
-    const auto& [spacing, per_cell] = grids[static_cast<std::size_t>(n) % grids.size()];
+    const auto& grid = grids[static_cast<std::size_t>(n) % grids.size()];
+    const auto& per_cell = grid.second;  // Clang 14 takes no structured binding into a lambda
     const auto cells = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
     const glm::ivec3 size{26, 27, 18}, extent{cells(10, 12), cells(10, 12), cells(10, 12)};
     const glm::ivec3 first{cells(7, 8), cells(7, 8), cells(1, 4)};
     const glm::ivec2 margin{cells(1, 3), cells(1, 3)};
-    io::Volume scan = room(size * per_cell, spacing);
+    io::Volume scan = room(size * per_cell, grid.first);
     scan.padding = {padding_hu, padding_hu};
     put_box(scan, first * per_cell, extent * per_cell, soft_hu);
     put_box(scan, (first + 4) * per_cell, per_cell, empty_hu);  // air in the body
