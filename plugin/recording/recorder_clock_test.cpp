@@ -140,7 +140,7 @@ TEST(RecorderClock, FlushesEvery2048TicksWhileTheClockStands) {
       await_written(recorder, ticks += count);
     };
     for (const std::uint64_t flushed : {2048U, 4096U}) {
-      for (const std::uint64_t from = ticks; ticks < from + 2048;) write(batch);
+      for (std::uint64_t written = 0; written < 2048; written += batch) write(batch);
       write(1);  // what follows a batch is over when the next batch is written
       const auto left = fresh_path("left.h5");
       std::filesystem::copy_file(file.string() + ".partial", left);
