@@ -183,6 +183,20 @@ TEST(UnevenMasksLaws, AGapMakesNoLargerLattice) {
   }
 }
 
+/// A square of 10 x 10 voxels on one slice of a scan, whose file does not say how thick it is.
+Mask square_on_slice(const Geometry& scan, std::size_t k) {
+  Mask mask;
+  mask.geometry = scan;
+  mask.geometry.slice_positions = {scan.slice_positions[k]};
+  mask.geometry.dimensions.z = mask.size.z = 1;
+  mask.geometry.step = {0, 0, 1};
+  mask.has_no_thickness = true;
+  mask.low = {2, 2, 0};
+  mask.size.x = mask.size.y = 10;
+  mask.occupancy.assign(100, Mask::full);
+  return mask;
+}
+
 // One slice whose file does not say how thick it is reaches half of the way to the scan's slices beside it, however far
 // the others lie. With a thickness that it says it keeps that.
 TEST(UnevenMasksLaws, OneSliceIsAsThickAsTheScanThere) {
@@ -191,15 +205,7 @@ TEST(UnevenMasksLaws, OneSliceIsAsThickAsTheScanThere) {
         heights_of({{9, 3}, {1, 18}}), heights_of({{3, 2.5}}), heights_of({{4, 2.9}, {1, 3.3}, {5, 3.1}})}) {
     const Geometry scan = slices_at(14, 1, heights);
     for (std::size_t k = 0; k < heights.size(); ++k) {
-      Mask mask;
-      mask.geometry = scan;
-      mask.geometry.slice_positions = {scan.slice_positions[k]};
-      mask.geometry.dimensions.z = mask.size.z = 1;
-      mask.geometry.step = {0, 0, 1};
-      mask.has_no_thickness = true;
-      mask.low = {2, 2, 0};
-      mask.size.x = mask.size.y = 10;
-      mask.occupancy.assign(100, Mask::full);
+      Mask mask = square_on_slice(scan, k);
       const double below = heights[std::max<std::size_t>(k, 1)] - heights[std::max<std::size_t>(k, 1) - 1];
       const std::size_t next = std::min(k + 1, heights.size() - 1);
       const double above = heights[next] - heights[next - 1];
@@ -271,15 +277,7 @@ TEST(UnevenMasksLaws, OneSliceOfUnevenStepsIsFeltAsAmongEvenOnes) {
   const std::vector<double> uneven = heights_of({{5, 2}, {5, 5.3}});
   const auto felt = [](const std::vector<double>& heights, std::size_t k) {
     const Geometry scan = slices_at(14, 1, heights);
-    Mask mask;
-    mask.geometry = scan;
-    mask.geometry.slice_positions = {scan.slice_positions[k]};
-    mask.geometry.dimensions.z = mask.size.z = 1;
-    mask.geometry.step = {0, 0, 1};
-    mask.has_no_thickness = true;
-    mask.low = {2, 2, 0};
-    mask.size.x = mask.size.y = 10;
-    mask.occupancy.assign(100, Mask::full);
+    const Mask mask = square_on_slice(scan, k);
     DistanceOptions options;
     options.scan = &scan;
     const auto field = OneMask(mask).distance(1, options);
