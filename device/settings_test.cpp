@@ -5,14 +5,18 @@
 
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 #include "device/device_type.h"
 #include "device/falcon/falcon.h"
 #include "device/force_dimension/force_dimension.h"
 #include "device/haply/haply.h"
 #include "device/haply/haply_service.h"
+#include "device/messages.h"
 #include "device/settings_file.h"
 #include "device/testing/test_files.h"
 #include "device/touch/touch.h"
@@ -100,6 +104,103 @@ TEST(Settings, AKeyThatIsAbsentKeepsItsDefault) {
   expect_defaults(read_touch(empty), {.maximum_force = 0, .stiffness_limit = 0});
   expect_defaults(read_force_dimension(empty), {.maximum_force = 0, .stiffness_limit = 1500});
   EXPECT_FALSE(read_force_dimension(empty).may_home);
+}
+
+/// What a reader made of a file: the value of each member by its name.
+template <typename Settings>
+Json members_of(const Settings& s) {
+  const auto list = [](const Vec3& v) { return Json::array({v.x, v.y, v.z}); };
+  Json all{{"address", s.address}, {"maximum_force", s.maximum_force},         {"stiffness_limit", s.stiffness_limit},
+           {"guarded", s.guarded}, {"position_signs", list(s.signs.position)}, {"force_signs", list(s.signs.force)}};
+  if constexpr (std::is_same_v<Settings, FalconSettings>) {
+    all.update(Json{{"firmware_file", s.firmware_file}, {"motor_gain", s.motor_gain}});
+  } else if constexpr (std::is_same_v<Settings, HaplySettings>) {
+    all.update(Json{{"host", s.host}, {"port", s.port}, {"events_port", s.events_port}, {"preset", s.preset}});
+  } else if constexpr (std::is_same_v<Settings, ForceDimensionSettings>) {
+    all.update(Json{{"may_home", s.may_home}});
+  } else if constexpr (std::is_same_v<Settings, TouchSettings>) {
+    all.update(Json{{"may_reset_encoders", s.may_reset_encoders}});
+  } else {
+    all.update(Json{{"short_reports", s.short_reports},
+                    {"stylus_button", s.stylus_button},
+                    {"continuous_current", s.continuous_current},
+                    {"capstan_diameter", s.capstan_diameter},
+                    {"body_diameter", s.body_diameter},
+                    {"base_height", s.base_height},
+                    {"lower_length", s.lower_length},
+                    {"upper_length", s.upper_length},
+                    {"origin", s.origin},
+                    {"workspace_radius", s.workspace_radius},
+                    {"torque_constant", s.torque_constant},
+                    {"counts_per_turn", s.counts_per_turn},
+                    {"encoder_sign", s.encoder_sign},
+                    {"motor_aligned", s.motor_aligned},
+                    {"home_counts", s.home_counts},
+                    {"current_limit", s.current_limit}});
+  }
+  return all;
+}
+
+/// Whatever key a file has, it changes the member of its name, and no other.
+TEST(Settings, EachKeyChangesItsOwnMemberAlone) {
+  const auto check = [](auto read, const Json& base, const Json& values) {
+    const Json before = members_of(read(file_of(base)));
+    EXPECT_EQ(values.size(), before.size()) << "a value for each member";
+    for (const auto& [key, value] : values.items()) {
+      Json file = base, wanted = before;
+      file[key] = wanted[key] = value;
+      EXPECT_NE(wanted, before) << key;
+      EXPECT_EQ(members_of(read(file_of(file))), wanted) << key;
+    }
+  };
+  const Json none = Json::object();
+  check(read_falcon, none, with({{"firmware_file", "novint.bin"}, {"motor_gain", 1234.5}}));
+  check(read_haply, none, with({{"host", "there"}, {"port", 1234}, {"events_port", 4321}, {"preset", "mine"}}));
+  check(read_force_dimension, none, with({{"may_home", true}}));
+  check(read_touch, none, with({{"may_reset_encoders", true}}));
+  check(read_wooden_haptics, {{"preset", "2015"}},
+        with({{"short_reports", true},
+              {"stylus_button", true},
+              {"continuous_current", 0.75},
+              {"capstan_diameter", {0.011, 0.012, 0.013}},
+              {"body_diameter", {0.161, 0.122, 0.123}},
+              {"base_height", 0.081},
+              {"lower_length", 0.206},
+              {"upper_length", 0.246},
+              {"origin", {0.221, 0.001, 0.082}},
+              {"workspace_radius", 0.101},
+              {"torque_constant", {0.031, 0.032, 0.033}},
+              {"counts_per_turn", {2001, 2002, 2003}},
+              {"encoder_sign", {-1, 1, -1}},
+              {"motor_aligned", {true, false, true}},
+              {"home_counts", {11, 12, 13}},
+              {"current_limit", 2.1}}));
+}
+
+/// What a refusal or a hint tells to write into a settings file is what the file may have.
+TEST(Settings, AKeyThatIsAskedForIsTaken) {
+  const std::map<std::string, std::function<void(const std::string&)>> readers{
+      {"3D Systems Touch", read_touch}, {"Force Dimension", read_force_dimension}};
+  const std::string before_key = "allow it in its settings file: ";
+  int asked = 0;
+  for (const MessageRow& row : messages::styluses) {
+    for (const Message& message : row.messages) {
+      const std::string text(message.text);
+      const std::size_t at = text.find(before_key);
+      if (at == std::string::npos) continue;
+      const std::size_t key = at + before_key.size();
+      const auto reader = readers.find(text.substr(0, text.find(':')));
+      ASSERT_NE(reader, readers.end()) << text;
+      const std::string file = file_of({{text.substr(key, text.find(',', key) - key), true}});
+      EXPECT_EQ(refusal_of([&] { reader->second(file); }), "") << text;
+      ++asked;
+    }
+  }
+  EXPECT_EQ(asked, 2);
+  const std::string_view hint = find_device_type("force_dimension")->file_hint;
+  const std::size_t from = hint.find('"') + 1;
+  const std::string hinted(hint.substr(from, hint.find('"', from) - from));
+  EXPECT_TRUE(read_force_dimension(file_of({{hinted, true}})).may_home);
 }
 
 /// A key that no kind has, a value of another type, a sign that is none, no object, no JSON and no file: each is

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,5 +23,9 @@ bool take_falcon_and_send_zeros(const std::string& address) noexcept;
 
 /// The same for the Falcon at this file of /dev/bus/usb.
 bool take_falcon_at_and_send_zeros(const char* path) noexcept;
+
+/// Copies what a packet of the serial chip carries: all but the two bytes of status in front. Returns the number of
+/// bytes copied; what `packet` has no room for is left out.
+std::size_t falcon_payload(std::span<const std::uint8_t> raw, std::span<std::uint8_t> packet) noexcept;
 
 }  // namespace palpate::device

@@ -78,6 +78,21 @@ TEST(FalconUsb, ReceivesEveryByteInItsOrderHoweverItIsSplit) {
   EXPECT_FALSE(link->lost());
 }
 
+/// The chip puts two bytes of status in front of whatever it sends, of nothing, too.
+TEST(FalconUsb, TheStatusOfTheChipIsNoData) {
+  std::mt19937 random(3);
+  for (std::size_t size = 0; size <= 64; ++size) {
+    const Bytes raw = any_bytes(random, size);
+    for (const std::size_t room : {0U, 1U, 16U, 62U, 64U}) {
+      Bytes packet(room), wanted(room);
+      const std::size_t carried = size > 2 ? std::min(size - 2, room) : 0;
+      for (std::size_t n = 0; n < carried; ++n) wanted[n] = raw[n + 2];
+      EXPECT_EQ(falcon_payload(raw, packet), carried);
+      EXPECT_EQ(packet, wanted) << size << " " << room;
+    }
+  }
+}
+
 /// 4096 bytes wait for whoever asks; with one more all that waited goes, and the newest stays.
 TEST(FalconUsb, WhereNobodyReadsTheNewestStays) {
   for (const std::size_t last : {4U, 5U, 62U}) {

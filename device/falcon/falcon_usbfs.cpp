@@ -37,14 +37,10 @@ class UsbfsFalcon final : public FalconLink {
 
   std::size_t receive(std::span<std::uint8_t> packet, double timeout) noexcept override {
     std::array<std::uint8_t, 64> raw{};
-    constexpr int status = 2;  // the chip's own bytes, in front of every packet
     const auto ms = std::max(1U, static_cast<unsigned>(std::ceil(timeout * 1e3)));
     usbdevfs_bulktransfer bulk{falcon_endpoint_in, raw.size(), ms, raw.data()};
-    const int size = ioctl(node_, USBDEVFS_BULK, &bulk) - status;
-    if (size <= 0) return 0;
-    const std::size_t taken = std::min(packet.size(), static_cast<std::size_t>(size));
-    std::copy_n(raw.begin() + status, taken, packet.begin());
-    return taken;
+    const int size = ioctl(node_, USBDEVFS_BULK, &bulk);
+    return size > 0 ? falcon_payload(std::span(raw).first(static_cast<std::size_t>(size)), packet) : 0;
   }
   bool send(std::span<const std::uint8_t> packet) noexcept override {
     std::array<std::uint8_t, 64> bytes{};
@@ -65,6 +61,14 @@ class UsbfsFalcon final : public FalconLink {
 };
 
 }  // namespace
+
+std::size_t falcon_payload(std::span<const std::uint8_t> raw, std::span<std::uint8_t> packet) noexcept {
+  constexpr std::size_t status = 2;
+  if (raw.size() <= status) return 0;
+  const std::size_t taken = std::min(packet.size(), raw.size() - status);
+  std::copy_n(raw.begin() + status, taken, packet.begin());
+  return taken;
+}
 
 bool take_falcon_at_and_send_zeros(const char* path) noexcept {
   UsbfsFalcon falcon(path);

@@ -52,6 +52,21 @@ TEST_F(ForceDimensionClosing, OpensAndClosesInPairs) {
   EXPECT_EQ(held(), 0);
 }
 
+/// Of several that are meant each is tried, and one that is not stopped is told, whichever it is.
+TEST_F(ForceDimensionClosing, TheyAreStoppedOnlyIfEachIs) {
+  drd->devices = 3;
+  for (int failing = 0; failing < 3; ++failing) {
+    drd->unstoppable = failing;
+    const int stopped = drd->stopped;
+    EXPECT_FALSE(stop_force_dimension("")) << failing;
+    EXPECT_EQ(drd->stopped, stopped + 3);
+    EXPECT_EQ(drd->opened, drd->closed);
+    for (int one = 0; one < 3; ++one) EXPECT_EQ(stop_force_dimension(std::to_string(1234 + one)), one != failing);
+  }
+  drd->devices = 0;
+  EXPECT_FALSE(stop_force_dimension("")) << "there is none";
+}
+
 /// Whoever could not be connected to needs no disconnecting: it is stopped and closed, and can be tried again.
 TEST_F(ForceDimensionClosing, OneThatCannotBeBroughtUpIsStoppedAndClosed) {
   const struct {

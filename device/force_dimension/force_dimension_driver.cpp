@@ -237,16 +237,18 @@ std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& setti
 
 bool stop_force_dimension(const std::string& address) {
   const DrdLibrary drd;
-  bool stopped = false;
+  int meant = 0, stopped = 0;
   const int count = drd.get_device_count();
   for (int i = 0; i < count; ++i) {
     const int id = drd.open(static_cast<char>(i));
     if (id < 0) continue;
-    if (address.empty() || address == drd.serial_of(static_cast<char>(id)))
-      stopped = drd.dhd_stop(static_cast<char>(id)) >= 0;
+    if (address.empty() || address == drd.serial_of(static_cast<char>(id))) {
+      ++meant;
+      if (drd.dhd_stop(static_cast<char>(id)) >= 0) ++stopped;
+    }
     drd.close(static_cast<char>(id));
   }
-  return stopped;
+  return meant > 0 && stopped == meant;
 }
 
 std::vector<FoundDevice> find_force_dimension() {

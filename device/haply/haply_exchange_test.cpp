@@ -140,6 +140,28 @@ TEST(HaplyExchange, OnlyAnswersInARowCount) {
   EXPECT_TRUE(session.step(Vec3(1, 0, 0))["inverse3"][0]["commands"]["set_cursor_force"].contains("vector"));
 }
 
+/// Twenty answers in a row that tell of another's force are a fault. Nineteen are not, however often, with one between
+/// them that tells of ours, of a part of it or of none.
+TEST(HaplyExchange, OnlyForeignForcesInARowCount) {
+  for (const Vec3& ours : {Vec3(0), Vec3(1, 0, 0)}) {
+    for (const double part : {1.0, 0.3, 0.0}) {
+      HaplySession session;
+      session.answer(arm_at(Vec3(0)));
+      const auto told = [&](const Vec3& acting) {
+        session.step(ours);
+        session.answer(arm_at(Vec3(0), acting));
+        return session.status().fault;
+      };
+      for (int n = 1; n <= 200; ++n) {
+        ASSERT_EQ(told(n % 20 == 0 ? part * ours : ours + Vec3(0, 0, 1)), LinkFault::none) << part << " " << n;
+      }
+      for (int n = 1; n <= 20; ++n) {
+        EXPECT_EQ(told(ours + Vec3(0, 0, 1)), n < 20 ? LinkFault::none : LinkFault::foreign_force) << n;
+      }
+    }
+  }
+}
+
 /// A link that tells of no version.
 class PlainLink final : public Link {
  public:

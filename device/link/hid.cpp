@@ -101,10 +101,10 @@ std::vector<FoundDevice> find_hid_devices(const HidKind& wanted) {
   return found;
 }
 
-std::string hid_identity(const std::string& path) {
+std::string hid_identity(const std::string& path, const std::string& sysfs) {
   const auto slash = path.rfind('/');
   if (slash == std::string::npos) return {};
-  std::ifstream about("/sys/class/hidraw/" + path.substr(slash + 1) + "/device/uevent");
+  std::ifstream about(sysfs + "/class/hidraw/" + path.substr(slash + 1) + "/device/uevent");
   std::string identity;
   for (std::string line; std::getline(about, line);) {
     for (const char* key : {"HID_ID=", "HID_NAME=", "HID_PHYS=", "HID_UNIQ="}) {

@@ -26,8 +26,8 @@ struct HidKind {
 std::vector<FoundDevice> find_hid_devices(const HidKind& wanted);
 
 /// The kernel's data on the device at a hidraw path: its ids, its socket, its serial number. Empty
-/// if there is none.
-std::string hid_identity(const std::string& path);
+/// if there is none. `sysfs`: where the kernel's files are.
+std::string hid_identity(const std::string& path, const std::string& sysfs = "/sys");
 
 /// Opens the device of a kind at a hidraw path, or the only one. Throws std::runtime_error naming it and what to do.
 std::unique_ptr<Link> open_hid(const HidKind& kind, const std::string& address);

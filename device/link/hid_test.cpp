@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 #include <string>
@@ -188,6 +190,45 @@ TEST_F(Hid, WritesReportsBehindTheirNumber) {
   EXPECT_FALSE(link->lost());
   hid.takes = true;
   EXPECT_TRUE(link->send(std::vector<std::uint8_t>(14)));
+}
+
+/// The kernel's files on hidraw nodes: the four lines that tell a device, among others.
+class HidFiles {
+ public:
+  void write(const std::string& node, const std::array<std::string, 4>& lines, const std::string& driver) const {
+    const std::filesystem::path folder = root_ / "class/hidraw" / node / "device";
+    std::filesystem::create_directories(folder);
+    std::ofstream uevent(folder / "uevent");
+    uevent << "DRIVER=" << driver << "\n";
+    for (const std::string& line : lines) uevent << line << "\n";
+    uevent << "MODALIAS=hid:b0003g0001v00001234p00000006\n";
+  }
+  std::string identity(const std::string& path) const { return hid_identity(path, root_); }
+
+ private:
+  TestFiles files_;
+  std::filesystem::path root_ = std::filesystem::path(files_.write("root", "")).parent_path();
+};
+
+/// Two devices differ in their ids, name, socket or serial number, and often in one of them alone. A device that gets
+/// another node or driver is the same one.
+TEST(HidIdentity, IsOfTheDeviceAndNotOfItsNode) {
+  const std::array<std::string, 4> arm{"HID_ID=0003:00001234:00000006", "HID_NAME=WoodenHaptics",
+                                       "HID_PHYS=usb-0000:00:14.0-1/input0", "HID_UNIQ=17"};
+  const HidFiles files;
+  files.write("hidraw0", arm, "hid-generic");
+  const std::string identity = files.identity("/dev/hidraw0");
+  EXPECT_NE(identity, "");
+  files.write("hidraw3", arm, "hid-other");
+  EXPECT_EQ(files.identity("/dev/hidraw3"), identity);
+  for (std::size_t line = 0; line < arm.size(); ++line) {
+    std::array<std::string, 4> other = arm;
+    other[line].back() = '9';
+    files.write("hidraw0", other, "hid-generic");
+    EXPECT_NE(files.identity("/dev/hidraw0"), identity) << arm[line];
+  }
+  EXPECT_EQ(files.identity("/dev/hidraw7"), "");
+  EXPECT_EQ(files.identity("hidraw3"), "") << "no path";
 }
 
 /// One by the settings' address, and only with one: other devices have its ids.

@@ -41,11 +41,14 @@ RealtimeStatus become_realtime(int priority) {
   // As pages are touched: a whole scan need not be fetched for it.
   status.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
   if (!status.scheduled || !status.memory_locked) {
-    status.advice = say("no-real-time", std::string(status.scheduled ? "" : "real-time scheduling") +
-                                            (status.scheduled || status.memory_locked ? "" : " and ") +
-                                            (status.memory_locked ? "" : "locked memory"));
+    status.advice = realtime_advice(status.scheduled, status.memory_locked);
   }
   return status;
+}
+
+Text realtime_advice(bool scheduled, bool memory_locked) {
+  return say("no-real-time", std::string(scheduled ? "" : "real-time scheduling") +
+                                 (scheduled || memory_locked ? "" : " and ") + (memory_locked ? "" : "locked memory"));
 }
 
 Metronome::Metronome(double period) : period_(0), deadline_(0) {

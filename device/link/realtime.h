@@ -22,6 +22,8 @@ bool make_thread_realtime(int priority) noexcept;
 
 /// SCHED_FIFO for the calling thread and locked memory for the process. Never throws; the result says what was refused.
 RealtimeStatus become_realtime(int priority = 50);
+/// What was refused, of the two, and what to do about it; for where not both were granted.
+Text realtime_advice(bool scheduled, bool memory_locked);
 
 /// Absolute deadlines at an even rate, so that delays do not add up. All times are of CLOCK_MONOTONIC.
 class Metronome {

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <random>
 #include <stdexcept>
+#include <string>
 
 namespace palpate::device {
 namespace {
@@ -80,6 +81,20 @@ TEST(Realtime, TakesThePriorityThatItIsAllowed) {
   int status = 1;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
+}
+
+/// One is named alone, both with an "and" between them.
+TEST(Realtime, NamesWhatWasRefused) {
+  const struct {
+    bool scheduled, memory_locked;
+    const char* refused;
+  } cases[] = {{false, true, "real-time scheduling"},
+               {true, false, "locked memory"},
+               {false, false, "real-time scheduling and locked memory"}};
+  for (const auto& one : cases) {
+    const std::string advice = realtime_advice(one.scheduled, one.memory_locked);
+    EXPECT_EQ(advice.substr(0, advice.find(';')), std::string("not allowed here: ") + one.refused);
+  }
 }
 
 /// By the two clocks, of which one stands still in a sleep.

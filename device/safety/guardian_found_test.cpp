@@ -42,6 +42,27 @@ class Places {
   std::filesystem::path root_ = std::filesystem::path(files_.write("root", "")).parent_path();
 };
 
+/// It leaves its group by the user's systemd, whose socket is in the folder that the environment names.
+TEST(Guardian, LeavesItsGroupWhereTheUsersSystemdRuns) {
+  const TestFiles files;
+  const std::filesystem::path root = std::filesystem::path(files.write("file", "")).parent_path();
+  const std::filesystem::path bare = root / "bare", half = root / "half", whole = root / "whole";
+  std::filesystem::create_directories(bare);
+  std::filesystem::create_directories(half / "systemd");
+  std::filesystem::create_directories(whole / "systemd");
+  std::ofstream(whole / "systemd/private") << "";
+  const char* const set = std::getenv("XDG_RUNTIME_DIR");
+  const std::string before = set != nullptr ? set : "";
+  unsetenv("XDG_RUNTIME_DIR");
+  EXPECT_FALSE(guardian_can_leave_group()) << "as under ssh, cron and sudo";
+  for (const auto& folder : {bare, half, whole, root / "absent"}) {
+    setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
+    EXPECT_EQ(guardian_can_leave_group(), folder == whole) << folder;
+  }
+  unsetenv("XDG_RUNTIME_DIR");
+  if (!before.empty()) setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
+}
+
 TEST(Guardian, IsFoundBesideTheTests) {
   EXPECT_NE(guardian_program().find("palpate-guardian"), std::string::npos);
 }

@@ -1,7 +1,9 @@
 #include "device/safety/zero_force.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <vector>
@@ -59,6 +61,13 @@ TEST(ZeroForce, ItIsGivenUpWhenTheUserLogsOut) {
   EXPECT_FALSE(keep_trying(never, gives_up, own_clock));
   EXPECT_NEAR(waited_s, 7200, 0.2);
   EXPECT_GT(tries, 70000);
+}
+
+/// The folder that systemd makes for each user who logs in, and takes away with the last login.
+TEST(ZeroForce, ALoginIsTheUsersOwn) {
+  char folder[64];
+  std::snprintf(folder, sizeof folder, "/run/user/%u", static_cast<unsigned>(getuid()));
+  EXPECT_EQ(Login::own_folder(), folder);
 }
 
 /// Of a session that stands still: at once, and again until it succeeds, told once.

@@ -121,8 +121,9 @@ int dhdEnableForce(unsigned char on, char) {
   state.forces_on = on;
   return result("dhdEnableForce");
 }
-int dhdStop(char) {
+int dhdStop(char id) {
   state.stopped = state.stopped + 1;
+  if (id == state.unstoppable) return -1;
   if (state.unplugged == 0) state.forces_on = 0;
   return 0;
 }

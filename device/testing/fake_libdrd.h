@@ -23,6 +23,7 @@ struct FakeDrd {
   int gravity = 0;
   int forces_on = 0;
   int stopped = 0;
+  int unstoppable = -1;  // the device, of several, that dhdStop() does not stop
   int closed = 0;
   int failing = 0;             // every call fails
   char failing_call[48] = "";  // or only calls of this name; a refused force leaves the previous one
