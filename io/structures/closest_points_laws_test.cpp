@@ -15,7 +15,6 @@
 namespace palpate::io {
 namespace {
 
-
 struct OddBricks {
   std::mt19937 random;
   NodeBricks bricks;

@@ -88,8 +88,7 @@ TEST(Chart, ABarStandsOnTheAxis) {
       chart.x = {.minimum = 0, .maximum = 2};
       chart.y = {.logarithmic = logarithmic, .minimum = 1, .maximum = 100};
       const double value = logarithmic ? std::pow(100, part) : 1 + 99 * part;
-      chart.curves.push_back(
-          {.x = {0.5, 1.5}, .y = {value, value}, .color = {1, 0, 0}, .style = Curve::Style::bars});
+      chart.curves.push_back({.x = {0.5, 1.5}, .y = {value, value}, .color = {1, 0, 0}, .style = Curve::Style::bars});
       draw(canvas, std::span(&chart, 1), style);
       const auto [first, last] = rows_in_red(canvas);
       EXPECT_NEAR(first, low_end + part * (high_end - low_end), 2) << part;

@@ -109,8 +109,8 @@ TEST(PressPath, AimsThroughTheLastBoundaryHoweverStrongItIs) {
   struct Case {
     double first_step_hu, last_step_hu, last_n;
   };
-  for (const Case& one : {Case{1000, 1000, weak_n}, Case{1000, 5000, strong_n}, Case{5000, 1000, weak_n},
-                          Case{5000, 5000, strong_n}}) {
+  for (const Case& one :
+       {Case{1000, 1000, weak_n}, Case{1000, 5000, strong_n}, Case{5000, 1000, weak_n}, Case{5000, 5000, strong_n}}) {
     const double first_hu = -1000 + one.first_step_hu;
     const auto source = std::make_shared<testdata::AnalyticSource>(
         testdata::make_slab({0, 0, -1},

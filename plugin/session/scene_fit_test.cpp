@@ -45,7 +45,8 @@ TEST(SceneFit, NamesTheFieldsThatEveryModeLacks) {
   EXPECT_NE(why_not(follow, "stream").find("the scene \"stream\""), std::string::npos);
   EXPECT_NE(why_not(gated), "") << "a gate reads, too";
   for (const std::string type : {"surface", "friction", "force"}) {
-    const std::string strength = R"({"type": ")" + type + R"(", "strength_n": {"of": "vector", "nodes": [[0, 0], [9, 1]]}})";
+    const std::string strength =
+        R"({"type": ")" + type + R"(", "strength_n": {"of": "vector", "nodes": [[0, 0], [9, 1]]}})";
     EXPECT_NE(why_not(strength).find("vector field"), std::string::npos) << type << "'s strength reads, too";
   }
   std::string off = surface;

@@ -250,7 +250,8 @@ TEST(SessionLimits, ASceneOnlyTightens) {
     for (const Text& text : drawn_down(scene, device)) said += text + "\n";
     const auto says = [&](const char* key) { return said.find(key) != std::string::npos; };
     const auto is_drawn_down = [&](const char* key, double asked, double felt, const char* unit) {
-      const bool is_told = says(fmt::format("limits.{} of {:g} is reduced to {:g} {},", key, asked, felt, unit).c_str());
+      const bool is_told =
+          says(fmt::format("limits.{} of {:g} is reduced to {:g} {},", key, asked, felt, unit).c_str());
       EXPECT_EQ(is_told, says(key)) << said;
       return is_told;
     };
