@@ -7,21 +7,18 @@
 #include <pqPropertiesPanel.h>
 #include <pqProxyWidget.h>
 #include <pqRenderView.h>
-#include <pqRepresentation.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
-#include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMRepresentationProxy.h>
 #include <vtkSMSessionProxyManager.h>
-#include <vtkSMViewLayoutProxy.h>
 #include <vtkSMViewProxy.h>
+#include <QGuiApplication>
+#include <QScreen>
 
 #include <QAction>
-#include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
-#include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
@@ -29,7 +26,6 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QPushButton>
-#include <QScreen>
 #include <QScrollArea>
 #include <QStringList>
 #include <QTextBrowser>
@@ -40,9 +36,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
@@ -324,59 +318,6 @@ void ones_way_is_found() {
   scan_is_shown();
 }
 
-/// Opacity of the volume over its values, as it is shown.
-std::vector<double> volume_opacity() {
-  for (auto* const one : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>()) {
-    if (one->getSMName() != QLatin1String("Volume")) continue;
-    for (pqRepresentation* const shown : one->getRepresentations()) {
-      vtkSMProxy& proxy = *shown->getProxy();
-      if (!shown->isVisible() || !proxy.GetProperty("ScalarOpacityFunction")) continue;
-      return vtkSMPropertyHelper(vtkSMPropertyHelper(&proxy, "ScalarOpacityFunction").GetAsProxy(), "Points")
-          .GetDoubleArray();
-    }
-  }
-  return {};
-}
-
-/// The fraction of the volume view's pixels that are not black. Its letters and marker are a fiftieth.
-double shown_part() {
-  const QImage picture = view("Volume").grab().toImage();
-  int shown = 0;
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      shown += picture.pixelColor(x, y).value() > 40 ? 1 : 0;
-    }
-  }
-  return static_cast<double>(shown) / (picture.width() * picture.height());
-}
-
-/// A chosen look stays while a scene is tuned. *Felt boundaries* draws surfaces and does not change the other look.
-void a_chosen_look_stays() {
-  scan_is_shown();
-  auto& looks = find<QComboBox>("palpateVolumeLook");
-  expect(looks.currentText() == "CT skin", "a body in air is shown by its skin");
-  const auto choose = [&](const char* look) {
-    looks.setCurrentText(QLatin1String(look));
-    emit looks.activated(looks.currentIndex());
-  };
-  const std::vector<double> skin = volume_opacity();
-  choose("CT bone");
-  wait_for(
-      "it is shown as chosen", [&] { return !volume_opacity().empty() && volume_opacity() != skin; }, 20);
-  views_rest();
-  const std::vector<double> bone = volume_opacity();
-  auto& strength = find<QDoubleSpinBox>("palpateStrength0");
-  strength.setValue(strength.value() / 2);
-  wait_ms(1000);
-  expect(volume_opacity() == bone, "tuning leaves the look that was chosen");
-  const QImage in_bone = view("Volume").grab().toImage();
-  choose("Felt boundaries");
-  wait_for(
-      "the boundaries are shown where that is chosen", [&] { return view("Volume").grab().toImage() != in_bone; }, 20);
-  expect(comes_true([] { return shown_part() > 0.05; }), "they are seen: " + std::to_string(shown_part()));
-  save_screen("felt-boundaries");
-}
-
 int tabs() {
   auto* const server = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqServer*>().first();
   return static_cast<int>(server->proxyManager()->GetNumberOfProxies("layouts"));
@@ -402,9 +343,10 @@ void one_tab_is_used_again() {
 }  // namespace
 
 const Scenarios& layout_scenarios() {
-  static const Scenarios scenarios{
-      {"the_layout_is_clinical", the_layout_is_clinical}, {"the_panel_fits_the_screen", the_panel_fits_the_screen},
-      {"advanced_is_remembered", advanced_is_remembered}, {"ones_way_is_found", ones_way_is_found},
-      {"a_chosen_look_stays", a_chosen_look_stays},       {"one_tab_is_used_again", one_tab_is_used_again}};
+  static const Scenarios scenarios{{"the_layout_is_clinical", the_layout_is_clinical},
+                                   {"the_panel_fits_the_screen", the_panel_fits_the_screen},
+                                   {"advanced_is_remembered", advanced_is_remembered},
+                                   {"ones_way_is_found", ones_way_is_found},
+                                   {"one_tab_is_used_again", one_tab_is_used_again}};
   return scenarios;
 }

@@ -264,6 +264,8 @@ void run_scenario(const std::string& name) {
                                       &interchange_scenarios(),
                                       &language_scenarios(),
                                       &layout_scenarios(),
+                                      &look_scenarios(),
+                                      &overtaken_scenarios(),
                                       &legible_scenarios(),
                                       &mark_scenarios(),
                                       &measured_scenarios(),
@@ -280,6 +282,7 @@ void run_scenario(const std::string& name) {
                                       &reading_scenarios(),
                                       &tuning_scenarios(),
                                       &unsaved_scenarios(),
+                                      &volume_drawing_scenarios(),
                                       &volume_scenarios()}) {
     if (const auto found = some->find(name); found != some->end()) return found->second();
   }

@@ -36,6 +36,7 @@ const Scenarios& heap_scenarios();
 const Scenarios& interchange_scenarios();
 const Scenarios& language_scenarios();
 const Scenarios& layout_scenarios();
+const Scenarios& look_scenarios();
 const Scenarios& legible_scenarios();
 const Scenarios& mark_scenarios();
 const Scenarios& measured_scenarios();
@@ -45,6 +46,7 @@ const Scenarios& recording_scenarios();
 const Scenarios& remote_scenarios();
 const Scenarios& sent_mark_scenarios();
 const Scenarios& sharing_scenarios();
+const Scenarios& overtaken_scenarios();
 const Scenarios& shown_scenarios();
 const Scenarios& slice_scenarios();
 const Scenarios& story_scenarios();
@@ -52,6 +54,7 @@ const Scenarios& structure_scenarios();
 const Scenarios& reading_scenarios();
 const Scenarios& tuning_scenarios();
 const Scenarios& unsaved_scenarios();
+const Scenarios& volume_drawing_scenarios();
 const Scenarios& volume_scenarios();
 
 /// The ray caster of the volume, used without a graphics card; throws if it is not ours.

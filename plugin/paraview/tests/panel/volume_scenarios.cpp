@@ -1,42 +1,28 @@
 // The volume view: without the table, cropped by a box, and the boundaries as surfaces where they are felt.
 
 #include <pqApplicationCore.h>
-#include <pqCoreUtilities.h>
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
-#include <pqView.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
-#include <vtkCamera.h>
-#include <vtkCommand.h>
-#include <vtkPVRenderView.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
-#include <vtkSMRenderViewProxy.h>
-#include <vtkVolume.h>
-#include <vtkVolumeCollection.h>
 
 #include <QAbstractButton>
 #include <QAction>
 #include <QComboBox>
-#include <QCursor>
-#include <QElapsedTimer>
 #include <QImage>
-#include <QObject>
 #include <QPoint>
 #include <QRect>
 #include <QWidget>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,19 +32,9 @@
 #include "plugin/paraview/client/views/event_watch.h"
 #include "plugin/paraview/tests/panel/panel_rig.h"
 #include "plugin/paraview/tests/panel/panel_steps.h"
+#include "plugin/paraview/tests/panel/volume_steps.h"
 
 namespace {
-
-vtkRenderer& renderer() {
-  auto* const client = render_view("Volume").getRenderViewProxy()->GetClientSideView();
-  return *vtkPVRenderView::SafeDownCast(client)->GetRenderer();
-}
-
-QAction& action(const char* name) {
-  auto* const found = pqCoreUtilities::mainWidget()->findChild<QAction*>(QLatin1String(name));
-  expect(found != nullptr, std::string("there is an action ") + name);
-  return *found;
-}
 
 /// Where the volume is seen, without the view's edges, where its texts, marks and frame are.
 QRect seen_in(const QImage& picture) {
@@ -156,7 +132,7 @@ struct Surface {
 
 Surface surface_seen() {
   Surface seen;
-  vtkActorCollection& actors = *renderer().GetActors();
+  vtkActorCollection& actors = *volume_renderer().GetActors();
   for (int n = 0; n < actors.GetNumberOfItems(); ++n) {
     auto* const actor = vtkActor::SafeDownCast(actors.GetItemAsObject(n));
     auto* const mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
@@ -177,19 +153,11 @@ Surface surface_seen() {
   return seen;
 }
 
-bool scan_is_drawn(vtkRenderer& in) {
-  vtkVolumeCollection& volumes = *in.GetVolumes();
-  for (int n = 0; n < volumes.GetNumberOfItems(); ++n) {
-    if (vtkVolume::SafeDownCast(volumes.GetItemAsObject(n))->GetVisibility()) return true;
-  }
-  return false;
-}
-
 /// A ball of 25 mm about the origin.
 void surfaces_are_seen_where_they_are_felt() {
   scan_is_shown();
   wait_for(
-      "the scan is drawn at first", [] { return scan_is_drawn(renderer()); }, 20);
+      "the scan is drawn at first", [] { return scan_is_drawn(volume_renderer()); }, 20);
   auto& looks = find<QComboBox>("palpateVolumeLook");
   const auto choose = [&](int look) {
     looks.setCurrentIndex(look);
@@ -205,7 +173,7 @@ void surfaces_are_seen_where_they_are_felt() {
          "it is the ball's: " + std::to_string(felt.least_mm) + " to " + std::to_string(felt.most_mm) + " mm");
   expect(felt.color == QColor(0xe6, 0x9f, 0x00), "in the boundary's color: " + felt.color.name().toStdString());
   expect(felt.opacity > 0.5 && felt.opacity < 1, "seen through a little");
-  expect(!scan_is_drawn(renderer()), "nothing hides it");
+  expect(!scan_is_drawn(volume_renderer()), "nothing hides it");
   views_rest();
   const QImage picture = view("Volume").grab().toImage();
   const QColor middle = picture.pixelColor(seen_in(picture).center());
@@ -219,7 +187,8 @@ void surfaces_are_seen_where_they_are_felt() {
       "and comes back", [] { return surface_seen().most_mm > 0; }, 20);
   choose(0);
   wait_for(
-      "another look shows the scan", [] { return scan_is_drawn(renderer()) && surface_seen().most_mm == 0; }, 20);
+      "another look shows the scan", [] { return scan_is_drawn(volume_renderer()) && surface_seen().most_mm == 0; },
+      20);
 }
 
 /// Colors and opacity of the volume, as its representation has them.
@@ -254,7 +223,7 @@ void a_look_is_of_its_scan() {
   expect(volume_colors() == first, "and that look's colors");
   expect(surface_seen().most_mm == 0, "no surfaces are seen");
   wait_for(
-      "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
+      "the scan is drawn", [] { return scan_is_drawn(volume_renderer()); }, 20);
 }
 
 QString saved_state(const char* name) {
@@ -287,11 +256,11 @@ void a_look_comes_back_with_its_state() {
   expect_look("CT bone");
   expect(volume_colors() == bone && surface_seen().most_mm == 0, "it is shown so");
   wait_for(
-      "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
+      "the scan is drawn", [] { return scan_is_drawn(volume_renderer()); }, 20);
   load_state(as_felt);
   expect_look("Felt boundaries");
   wait_for(
-      "the surface is there again", [] { return surface_seen().most_mm > 0 && !scan_is_drawn(renderer()); }, 20);
+      "the surface is there again", [] { return surface_seen().most_mm > 0 && !scan_is_drawn(volume_renderer()); }, 20);
   save_screen("look-restored");
   const unsigned before = reader_in_pipeline();
   drop_folder(qEnvironmentVariable("PALPATE_OPEN"));
@@ -300,51 +269,10 @@ void a_look_comes_back_with_its_state() {
   expect(surface_seen().most_mm == 0, "a scan that is opened has its own look");
 }
 
-/// How often the scan is drawn in the volume view, from the view's first picture on.
-struct Drawings {
-  Drawings() {
-    QObject::connect(
-        pqApplicationCore::instance()->getServerManagerModel(), &pqServerManagerModel::viewAdded, &lifetime,
-        [this](pqView* made) {
-          auto* const view = qobject_cast<pqRenderView*>(made);
-          if (!view) return;
-          auto* const drawn =
-              vtkPVRenderView::SafeDownCast(view->getRenderViewProxy()->GetClientSideView())->GetRenderer();
-          watches.push_back(std::make_unique<palpate::plugin::EventWatch>(
-              drawn, vtkCommand::EndEvent, [this, drawn] { count += scan_is_drawn(*drawn) ? 1 : 0; }));
-        });
-  }
-  int count = 0;
-  std::vector<std::unique_ptr<palpate::plugin::EventWatch>> watches;
-  QObject lifetime;
-};
-
-/// Without a graphics card its picture takes seconds: it is drawn once the table is cut away, and not for what only the
-/// slices show.
-void the_volume_is_drawn_seldom() {
-  const Drawings drawings;
-  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
-  scan_is_shown();
-  wait_for("the table is found", [] { return action("palpateCutTable").isEnabled(); });
-  views_rest();
-  const int first = drawings.count;
-  // ParaView may ask for a second picture by itself.
-  expect(first == 1 || first == 2, "the scan was drawn once or twice: " + std::to_string(first));
-  auto& on = find<QAbstractButton>("palpateOn0");
-  on.click();
-  views_rest();
-  on.click();
-  views_rest();
-  expect(drawings.count == first, "a tissue that is switched off and on does not draw it anew");
-  action("palpateCutTable").trigger();
-  wait_for(
-      "with the table it is drawn anew", [&] { return drawings.count > first; }, 20);
-}
-
 /// In pixels of the view's picture, from the left and from above.
 QPoint origin_in_volume_view() {
   double x = 0, y = 0, z = 0;
-  renderer().WorldToView(x, y, z);
+  volume_renderer().WorldToView(x, y, z);
   const QWidget& in = view("Volume");
   return QPoint(static_cast<int>((x + 1) / 2 * in.width()), static_cast<int>((1 - y) / 2 * in.height()));
 }
@@ -377,67 +305,6 @@ void the_volume_lies_in_the_patient() {
   wait_for("it is drawn again", [] { return is_round(seen_in_the_middle()); });
 }
 
-/// Without a graphics card a picture in full takes long: it is cast in turns, and is in the end what it is at once.
-void a_picture_at_rest_comes_in_turns() {
-  pqCoreUtilities::mainWidget()->setGeometry(0, 0, 800, 500);  // small: it is drawn in full nine times
-  feel();
-  vtkSMRenderViewProxy& volume = *render_view("Volume").getRenderViewProxy();
-  for (const double turned : {0.0, 20.0, 40.0}) {
-    views_rest();
-    int pictures = 0;
-    bool is_turned = false;
-    const palpate::plugin::EventWatch drawn(&renderer(), vtkCommand::EndEvent, [&] {
-      ++pictures;
-      if (!caster_of_the_volume().has_rows_left() || std::exchange(is_turned, true)) return;
-      volume.GetActiveCamera()->Azimuth(turned);
-    });
-    QCursor::setPos(QCursor::pos() + QPoint(6, 0));
-    // The coarse one of the move, the same once more while the rows are cast, and the one in full.
-    wait_for("the picture comes in turns", [&] { return pictures > 2 && is_turned; });
-    views_rest();
-    const QImage in_turns = view("Volume").grab().toImage();
-    volume.StillRender();
-    save_screen("in-turns");
-    expect(view("Volume").grab().toImage() == in_turns,
-           "the one that came in turns is the one that is drawn at once, of the camera as it is then");
-  }
-}
-
-/// Not a test but a measurement: how fast the volume turns, and how long it takes to be drawn in full.
-void the_volume_turns() {
-  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
-  scan_is_shown();
-  wait_for("the scan is drawn", [] { return scan_is_drawn(renderer()); });
-  // Without a graphics card a coarse picture comes first.
-  for (int n = 0; n < 5; ++n) views_rest();
-  vtkSMRenderViewProxy& view = *render_view("Volume").getRenderViewProxy();
-  QElapsedTimer clock;
-  const auto turn_and_draw = [&](bool still) {
-    view.GetActiveCamera()->Azimuth(3);
-    clock.start();
-    still ? view.StillRender() : view.InteractiveRender();
-    return 1e-6 * static_cast<double>(clock.nsecsElapsed());
-  };
-  std::vector<double> moving, resting;
-  for (int n = 0; n < 40; ++n) moving.push_back(turn_and_draw(false));
-  for (int n = 0; n < 5; ++n) resting.push_back(turn_and_draw(true));
-  std::ranges::sort(moving);
-  std::ranges::sort(resting);
-  std::printf(
-      "the_volume_turns: moving %.0f Hz in the median (the slowest picture %.0f ms); at rest %.0f ms, median of 5\n",
-      1000 / moving[moving.size() / 2], moving.back(), resting[resting.size() / 2]);
-  save_screen("turned");
-}
-
-/// Without HU nobody looks for a body: the volume waits for nothing but the slices.
-void a_volume_without_hu_is_drawn() {
-  drop_folder(qEnvironmentVariable("PALPATE_DROP"));
-  scan_is_shown();
-  wait_for(
-      "the scan is drawn", [] { return scan_is_drawn(renderer()); }, 20);
-  expect(!action("palpateCutTable").isEnabled(), "no table is cut away");
-}
-
 }  // namespace
 
 const Scenarios& volume_scenarios() {
@@ -445,10 +312,6 @@ const Scenarios& volume_scenarios() {
                                    {"the_volume_lies_in_the_patient", the_volume_lies_in_the_patient},
                                    {"a_look_is_of_its_scan", a_look_is_of_its_scan},
                                    {"a_look_comes_back_with_its_state", a_look_comes_back_with_its_state},
-                                   {"the_volume_turns", the_volume_turns},
-                                   {"a_picture_at_rest_comes_in_turns", a_picture_at_rest_comes_in_turns},
-                                   {"the_volume_is_drawn_seldom", the_volume_is_drawn_seldom},
-                                   {"a_volume_without_hu_is_drawn", a_volume_without_hu_is_drawn},
                                    {"surfaces_are_seen_where_they_are_felt", surfaces_are_seen_where_they_are_felt}};
   return scenarios;
 }
