@@ -20,7 +20,37 @@
 namespace palpate::plugin {
 namespace {
 
-constexpr double dragged_s = 0.02;  // a dragged change is there before the next one comes
+constexpr double dragged_s = 0.02;  // a small dragged change is there before the next one comes
+
+/// The largest change of a value at a node; where nodes came or went, of the curve at any node.
+double change_of(const modes::TransferFunction& from, const modes::TransferFunction& to) {
+  const auto before = from.nodes(), after = to.nodes();
+  const bool moved = before.size() == after.size();
+  double most = 0;
+  for (std::size_t n = 0; n < after.size(); ++n) {
+    most = std::max(most, std::abs(after[n].value - (moved ? before[n].value : from(after[n].at))));
+  }
+  for (std::size_t n = 0; n < before.size() && !moved; ++n) {
+    most = std::max(most, std::abs(before[n].value - to(before[n].at)));
+  }
+  return most;
+}
+
+/// By how many N a drag from one scene to another may change the force of its modes together.
+double change_n(const modes::Scene& from, const modes::Scene& to) {
+  if (from.modes.size() != to.modes.size()) return std::numeric_limits<double>::infinity();
+  double sum_n = 0;
+  for (std::size_t n = 0; n < to.modes.size(); ++n) {
+    const modes::Mode &before = from.modes[n], &after = to.modes[n];
+    if (before.gates.size() != after.gates.size()) return std::numeric_limits<double>::infinity();
+    const modes::TransferFunction none;
+    sum_n += change_of(before.enabled ? before.strength_n : none, after.enabled ? after.strength_n : none);
+    for (std::size_t gate = 0; gate < after.gates.size(); ++gate) {
+      sum_n += change_of(before.gates[gate].factor, after.gates[gate].factor) * after.strength_n.maximum();
+    }
+  }
+  return sum_n;
+}
 
 bool ended_in_fault(const TickRing& ring) {
   TickRecord tick;
@@ -142,8 +172,18 @@ void LiveSession::set_scene(const modes::Scene& scene, Pace pace) {
   if (!volume_) modes::validate(scene);  // else its plan does
   felt_ = felt_of(scene, volume_);
   offered_ = {};
+  double change_s = 0;
+  if (pace != Pace::at_once) {
+    const device::SafetyLimits limits = limits_for(scene.limits, specification_);
+    change_s = limits.ramp_time;
+    // A number that is typed, or a mouse after a pause, can jump: no change is faster than the ramp of a force.
+    if (pace == Pace::dragged) {
+      const double part = limits.force > 0 ? change_n(scene_, scene) / limits.force : 1;
+      change_s = std::clamp(change_s * part, std::min(dragged_s, change_s), change_s);
+    }
+  }
   scene_ = scene;
-  publish(pace == Pace::at_once ? 0 : pace == Pace::dragged ? dragged_s : ramp_s());
+  publish(change_s);
 }
 
 void LiveSession::connect(std::shared_ptr<device::Stylus> stylus, Start start) {

@@ -25,7 +25,7 @@ namespace palpate::plugin {
 /// How fast a change of scene takes effect.
 enum class Pace {
   stepped,  ///< one step: takes the scene's whole ramp
-  dragged,  ///< one of many small steps of a drag: felt at once, because the drag itself is gradual
+  dragged,  ///< one of many small steps of a drag: felt at once; a large step takes its part of the ramp
   at_once   ///< no force acts that could jump
 };
 

@@ -134,6 +134,53 @@ TEST(LiveSession, AChangeTakesTheTimeOfItsPace) {
   for (std::size_t n = 0; n < wanted_s.size(); ++n) EXPECT_EQ(recording.scenes[n].change_s, wanted_s[n]) << n;
 }
 
+/// Each takes its part of the ramp by the force that it may change, but not less than a small one and not more than all
+/// of it: a drag is no faster way to a force than a ramp.
+TEST(LiveSession, ALargeStepOfADragTakesItsPartOfTheRamp) {
+  const auto file = testing::fresh_path("drag.h5");
+  LiveSession live;
+  live.set_clock([](double period_s) { return std::make_unique<testing::UnhurriedClock>(period_s); });
+  modes::Scene scene = limited_scene();
+  scene.limits.force_n = 2;
+  scene.limits.ramp_s = 0.4;
+  const auto gate = [](double factor) {
+    return std::vector<modes::Gate>{{.factor = modes::TransferFunction({{0, 0}, {100, factor}})}};
+  };
+  const auto flat = [](double n) { return modes::TransferFunction({{0, n}, {100, n}}); };
+  scene.modes.resize(1);
+  scene.modes[0].strength_n = flat(0.5);
+  scene.modes[0].gates = gate(1);
+  live.set_scan(small_ball(), scene);
+  live.connect(testing::stylus(testing::hold()));
+  live.record(file);
+  std::vector<double> wanted_s;
+  const auto drag = [&](double change_n) {
+    live.set_scene(scene, Pace::dragged);
+    wanted_s.push_back(std::clamp(0.4 * change_n / 2, 0.02, 0.4));
+  };
+  double before_n = 0.5;
+  for (const double n : {0.51, 0.45, 0.6, 1.1, 0.3, 1.9, 0.0, 5.0, 1.5}) {
+    scene.modes[0].strength_n = flat(n);
+    drag(std::abs(n - std::exchange(before_n, n)));
+  }
+  scene.modes[0].gates = gate(0.6);
+  drag(0.4 * 1.5);
+  scene.modes[0].strength_n = modes::TransferFunction({{0, 1.5}, {50, 0.7}, {100, 1.5}});
+  drag(0.8);
+  scene.modes[0].strength_n = flat(1.5);
+  drag(0.8);
+  scene.modes[0].strength_n = modes::TransferFunction({{20, 1.5}, {100, 1.5}});
+  drag(0);
+  scene.modes[0].enabled = false;
+  drag(1.5);
+  live.disconnect();
+  const Recording recording = read_recording(file);
+  ASSERT_EQ(recording.scenes.size(), wanted_s.size() + 1);
+  for (std::size_t n = 0; n < wanted_s.size(); ++n) {
+    EXPECT_NEAR(recording.scenes[n + 1].change_s, wanted_s[n], 1e-12) << n;
+  }
+}
+
 /// The second before a fault, under the names of its columns: every number is another.
 TEST(FaultFile, EveryColumnHoldsWhatItIsNamedAfter) {
   const auto folder = std::filesystem::absolute(testing::fresh_path("fault_columns"));

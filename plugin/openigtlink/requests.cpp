@@ -100,7 +100,6 @@ void Requests::keep_own_limits() {
 }
 
 void Requests::look() {
-  if (changes_.look) changes_.look();
   keep_own_limits();
   if (change_.is_busy()) {
     if (!change_.is_ready() || (changes_.is_settled && !changes_.is_settled())) return;

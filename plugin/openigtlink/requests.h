@@ -41,7 +41,6 @@ struct Changes {
   /// Whether the session's scene is the owner's latest. If a change of the owner is still on its way, requests wait.
   /// Always, if it is empty.
   std::function<bool()> is_settled{};
-  std::function<void()> look{};  ///< called at each Requests::look()
   /// Whether a client's scene is felt with the session's own workspace: another one would move an armed stylus through
   /// the patient.
   bool keeps_workspace = false;

@@ -20,67 +20,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto between_looks = std::chrono::milliseconds(10);
-constexpr auto longest_fall = std::chrono::milliseconds(500);  // on a busy machine; else a tenth of it
-
-/// The last tick; none: there is none yet.
-std::optional<TickRecord> last_tick(const LiveSession& session) {
-  TickRecord tick;
-  const std::uint64_t written = session.is_connected() ? session.ticks()->written() : 0;
-  return written > 0 && session.ticks()->read(written - 1, tick) ? std::optional(tick) : std::nullopt;
-}
-
-/// Takes the force away while the stylus moves through the patient, because another scan lies elsewhere under the hand.
-/// It comes back along its ramp when the change is over, and only if it was on before.
-class ForceAcrossScans {
- public:
-  explicit ForceAcrossScans(LiveSession& session) : session_(session) {}
-
-  /// Returns when there is no force, or the servo has heard that there shall be none.
-  void take_away() {
-    if (session_.start() == LiveSession::Start::feeling) is_awaited_ = true;
-    session_.release();
-    std::optional<double> released_s;  // the first tick without it
-    for (const auto end = Clock::now() + longest_fall; Clock::now() < end;) {
-      session_.heartbeat();
-      const auto tick = last_tick(session_);
-      const bool off = tick && state_of(*tick) != device::State::active && state_of(*tick) != device::State::ramping;
-      if (off && !released_s) released_s = tick->time_s;
-      if (off && tick->time_s - *released_s > device::SafetyLimits{}.fall_time) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  }
-  void look() {
-    if (!is_awaited_) return;
-    const auto tick = last_tick(session_);
-    if (!tick || tick->scene_epoch != session_.epoch() || tick->change_part < 1) return;
-    is_awaited_ = false;
-    if (fault_of(*tick) == device::Fault::none) session_.feel();
-  }
-
- private:
-  LiveSession& session_;
-  bool is_awaited_ = false;
-};
 
 }  // namespace
 
 Changes changes_of(LiveSession& session, LoadScan load) {
-  const auto force = std::make_shared<ForceAcrossScans>(session);
   return {.set_scene =
               [&session](const modes::Scene& scene, const PreparedScene& prepared) {
                 session.offer(prepared);
                 session.set_scene(scene);
               },
           .set_scan =
-              [&session, force](const LoadedScan& scan, const modes::Scene& scene, const PreparedScene& prepared) {
-                const bool moves = session.plan() && prepared.plan->workspace != session.plan()->workspace;
-                if (moves) force->take_away();
+              [&session](const LoadedScan& scan, const modes::Scene& scene, const PreparedScene& prepared) {
                 session.offer(prepared);
                 session.set_scan(prepared.volume, scene, scan.frame);
               },
           .set_marks = {},
           .load = std::move(load),
-          .look = [force] { force->look(); },
           .keeps_workspace = true};
 }
 

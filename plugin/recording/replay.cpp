@@ -120,7 +120,9 @@ void Replayer::Progress::repeat_commands(std::span<const TickRecord> coming) {
   const TickRecord& tick = coming.front();
   if (tick.scene_epoch != scene_epoch) {
     // Some that were published were never taken; they have numbers, too.
-    const Snapshot taken = snapshot(tick.scene_epoch);
+    Snapshot taken = snapshot(tick.scene_epoch);
+    taken.is_replayed = true;
+    if (tick.change_part >= 1) taken.change_s = 0;  // its workspace came at once
     check_next(scenes, scene_epoch, tick.scene_epoch, "scene");
     while (scene_epoch != tick.scene_epoch) scene_epoch = session->publish(taken);
   }

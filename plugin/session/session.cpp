@@ -119,6 +119,7 @@ Session::~Session() {
   const std::unique_ptr<Held> held(held_);
   const std::unique_ptr<Setting> setting(setting_);
   const std::unique_ptr<Setting> leaving(leaving_);
+  const std::unique_ptr<Setting> coming(coming_);
 }
 
 std::uint32_t Session::publish(const Snapshot& next) {
@@ -140,7 +141,7 @@ std::uint32_t Session::change_stylus(std::shared_ptr<device::Stylus> stylus) {
 
 std::size_t Session::solver_bytes() const noexcept {
   std::size_t bytes = 0;
-  for (const Setting* setting : {setting_, leaving_}) {
+  for (const Setting* setting : {setting_, leaving_, coming_}) {
     if (setting == nullptr) continue;
     bytes += setting->chain.memory_bytes();
     if (setting->changing_chain) bytes += setting->changing_chain->memory_bytes();
@@ -166,8 +167,7 @@ void Session::take_commands() noexcept {
   // Looked for after the commands: who sees that it shall arm sees the stylus that was changed before.
   if (!exchanging_ && styluses_.is_offered()) {
     exchanging_ = true;
-    arm_again_ = safety_.armed;
-    device::disarm(safety_);
+    let_force_fall();
     tick_.commands |= command::change_stylus;
   }
   if ((tick_.commands & command::clear_fault) != 0) {
@@ -180,10 +180,18 @@ void Session::take_commands() noexcept {
   if ((tick_.commands & command::arm) != 0) {
     if (exchanging_) {
       arm_again_ = true;  // the next stylus
+    } else if (coming_ != nullptr) {
+      arm_again_ = true;
+      tick_.commands &= ~command::arm;  // of the tick in which it takes effect
     } else {
       device::arm(safety_);
     }
   }
+}
+
+void Session::let_force_fall() noexcept {
+  arm_again_ = arm_again_ || safety_.armed;
+  device::disarm(safety_);
 }
 
 void Session::go_over_to_stylus() noexcept {
@@ -195,8 +203,9 @@ void Session::go_over_to_stylus() noexcept {
     styluses_.give_back(std::exchange(held_, next));
     stylus_epoch_.store(held_->epoch, std::memory_order_release);
     safety_ = {.fault = safety_.fault};
-    if (arm_again_) {
+    if (std::exchange(arm_again_, false)) {
       device::arm(safety_);
+      if (coming_ != nullptr) tick_.commands |= command::arm;
     }
     exchanging_ = false;
     engaged_ = false;
@@ -206,13 +215,33 @@ void Session::go_over_to_stylus() noexcept {
 void Session::take_setting(double time) noexcept {
   if (leaving_ == nullptr) {
     if (Setting* next = settings_.take()) {
-      leaving_ = std::exchange(setting_, next);
-      change_began_s_ = time;
+      if (coming_ != nullptr) settings_.give_back(coming_);
+      coming_ = next;
     }
+    if (coming_ != nullptr) go_over_to_coming(time);
   }
   part_ = 1;
-  if (leaving_ != nullptr && setting_->snapshot.change_s > 0) {
-    part_ = std::clamp((time - change_began_s_) / setting_->snapshot.change_s, 0.0, 1.0);
+  if (leaving_ != nullptr && change_s_ > 0) {
+    part_ = std::clamp((time - change_began_s_) / change_s_, 0.0, 1.0);
+  }
+}
+
+void Session::go_over_to_coming(double time) noexcept {
+  const Snapshot& next = coming_->snapshot;
+  const bool differs = next.plan->workspace != setting_->snapshot.plan->workspace;
+  const bool moves = differs && !next.is_replayed;
+  if (moves && safety_.gain > 0) {
+    if (safety_.armed) tick_.commands = (tick_.commands & ~command::arm) | command::disarm;
+    let_force_fall();
+    return;
+  }
+  change_began_s_ = time;
+  change_s_ = moves ? 0 : next.change_s;
+  if (differs && change_s_ == 0) engaged_ = false;
+  leaving_ = std::exchange(setting_, std::exchange(coming_, nullptr));
+  if (std::exchange(arm_again_, false)) {
+    device::arm(safety_);
+    tick_.commands |= command::arm;
   }
 }
 
@@ -256,8 +285,10 @@ const TickRecord& Session::tick(const Beat& beat) noexcept {
 
   take_commands();
   go_over_to_stylus();
-  const device::Reading reading = held_->stylus->read();
+  take_setting(beat.time_s);
+  // Its state before its pose: a stylus that is ready has a pose by then.
   const device::State state = held_->stylus->state();
+  const device::Reading reading = held_->stylus->read();
   orientation_.store(reading.orientation);
   lap(Stage::read);
 
@@ -268,7 +299,6 @@ const TickRecord& Session::tick(const Beat& beat) noexcept {
     energy_ = {};
   }
   engaged_ = engaged;
-  take_setting(beat.time_s);
   const device::SafetyLimits limits_now = limits();
   const modes::StepResult result = step(reading);
   lap(Stage::modes);

@@ -38,7 +38,9 @@ struct Snapshot {
   std::shared_ptr<const modes::Plan> plan;
   std::shared_ptr<const io::FieldSource> source;
   device::SafetyLimits limits;
-  double change_s = 0.5;  ///< s: how long the change to it takes
+  double change_s = 0.5;  ///< s: how long the change to it takes, if it keeps the workspace
+  /// Of a recording: comes as it was recorded, under a force too.
+  bool is_replayed = false;
 };
 
 /// The time of a tick, from the session's driver. Recorded, so that a replay can repeat it.
@@ -73,7 +75,9 @@ class Session {
 
   // --- The controlling thread.
   /// Changes to another scene, scan, frame or workspace. One change runs at a time: the next begins when the current
-  /// one has ended. If several wait, only the last is made. Returns the TickRecord::scene_epoch of its ticks.
+  /// one has ended. If several wait, only the last is made. Another workspace moves the stylus through the patient: the
+  /// force falls to zero, the workspace comes at once, and the force is ramped up again if the session is still armed.
+  /// Returns the TickRecord::scene_epoch of its ticks.
   std::uint32_t publish(const Snapshot& next);
   /// Changes to another stylus. It is opened here. The servo takes it when the force has fallen to zero, and ramps the
   /// force up again. Throws what Stylus::open() throws; the session then keeps its stylus. Null: no stylus is held
@@ -113,7 +117,10 @@ class Session {
     commands_.fetch_or(wanted, std::memory_order_release);
   }
   void take_commands() noexcept;
+  /// Disarms until a stylus or a workspace has been taken; then what was armed, or is to be armed, is armed again.
+  void let_force_fall() noexcept;
   void go_over_to_stylus() noexcept;
+  void go_over_to_coming(double time) noexcept;
   void take_setting(double time) noexcept;
   modes::StepResult step(const device::Reading& reading) noexcept;
   device::SafetyLimits limits() const noexcept;
@@ -135,7 +142,8 @@ class Session {
   // The servo's.
   Setting* setting_ = nullptr;
   Setting* leaving_ = nullptr;  ///< the setting that it replaces; null: the change is complete
-  double change_began_s_ = 0;
+  Setting* coming_ = nullptr;   ///< has another workspace: waits until there is no force
+  double change_began_s_ = 0, change_s_ = 0;
   double part_ = 1;
   Held* held_ = nullptr;
   bool exchanging_ = false;  ///< the force falls before another stylus is taken

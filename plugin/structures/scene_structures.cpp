@@ -149,20 +149,15 @@ std::size_t common_edits(const modes::SceneStructure& wanted, const LoadedStruct
   return static_cast<std::size_t>(std::ranges::mismatch(wanted.edits, known.edits).in1 - wanted.edits.begin());
 }
 
-/// Other programs may write a file while it is felt. Recordings name what was read.
-bool is_rewritten(const std::string& hash_now, const LoadedStructure& read) {
-  return is_known(hash_now) && hash_now != read.hash;
-}
-
 /// The loaded structure with the same outline and reach, and the most of the scene's edits; null: there is none.
+/// Another program may write its file while it is felt: what was read stays felt, as it is shown.
 const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double reach_mm,
                                    const std::vector<LoadedStructure>& before) {
   const std::string file = std::filesystem::path(wanted.file).string(), segment = segment_of(wanted);
-  const std::string hash = before.empty() || modes::is_drawn(wanted) ? "" : hash_of_file(copy_of(file));
   const LoadedStructure* best = nullptr;
   for (const LoadedStructure& one : before) {
     const bool same = modes::is_drawn(wanted) ? one.file.empty() && one.edits.front() == wanted.edits.front()
-                                              : one.file == file && one.segment == segment && !is_rewritten(hash, one);
+                                              : one.file == file && one.segment == segment;
     if (!same || one.distance->reach_mm() != reach_mm) continue;
     if (best == nullptr || common_edits(wanted, one) > common_edits(wanted, *best)) best = &one;
   }

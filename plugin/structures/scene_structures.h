@@ -32,12 +32,12 @@ struct LoadedStructure {
 };
 
 /// The structures that the plan reads, in its order. Reuses unchanged structures in `before`, and the fields of the
-/// first edits of a structure as far as both lists of edits are the same. A structure whose file was rewritten is read
-/// again; one whose file is gone is reused. Throws std::invalid_argument naming the structure if its file or segment
-/// does not exist, if it is empty or belongs to another patient, if an edit of it is impossible, or if it has another
-/// frame of reference than the scan and no registration beside it joins the two. Structures in `recorded` are placed as
-/// they were when recorded, without searching for registrations. Fields of edits are shared (shared_edits.h). Those of
-/// edits that read the scan are shared only if the scan has an owner.
+/// first edits of a structure as far as both lists of edits are the same; also if their files were rewritten since or
+/// are gone. Throws std::invalid_argument naming the structure if its file or segment does not exist, if it is empty or
+/// belongs to another patient, if an edit of it is impossible, or if it has another frame of reference than the scan
+/// and no registration beside it joins the two. Structures in `recorded` are placed as they were when recorded, without
+/// searching for registrations. Fields of edits are shared (shared_edits.h). Those of edits that read the scan are
+/// shared only if the scan has an owner.
 std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const modes::Plan& plan,
                                              const io::Volume& volume, const std::vector<LoadedStructure>& before,
                                              std::span<const RegisteredStructure> recorded = {});
@@ -51,8 +51,7 @@ std::vector<LoadedStructure> load_structures(const modes::Scene& scene, const mo
 std::vector<LoadedStructure> carried_over(const std::vector<LoadedStructure>& structures, const io::Volume& from,
                                           const io::Volume& to);
 
-/// Whether all structures of the plan are in `before`, and their files are as they were read: then load_structures()
-/// reads no file and computes no field.
+/// Whether all structures of the plan are in `before`: then load_structures() reads no file and computes no field.
 bool are_loaded(const modes::Scene& scene, const modes::Plan& plan, const std::vector<LoadedStructure>& before);
 
 }  // namespace palpate::plugin

@@ -21,7 +21,8 @@ class NewTicks {
   void restart() { *this = {}; }
   /// The same session has restarted, and counts its ticks from 0 again.
   void count_anew() { next_ = 0; }
-  /// Calls `each()` with every new tick in `tick` and its primitives in `shares`.
+  /// Calls `each(pressed)` with every new tick in `tick` and its primitives in `shares`; `pressed`: the buttons that it
+  /// presses together.
   template <typename Each>
   Buttons read(const TickRing& ring, TickRecord& tick, std::vector<PrimitiveRecord>& shares, const Each& each) {
     Buttons changed;
@@ -30,10 +31,11 @@ class NewTicks {
     for (; next_ < written; ++next_) {
       shares.clear();
       if (!ring.read(next_, tick, &shares)) continue;
-      changed.pressed |= tick.buttons & ~buttons_;
+      const std::uint32_t pressed = tick.buttons & ~buttons_;
+      changed.pressed |= pressed;
       changed.let |= buttons_ & ~tick.buttons;
       buttons_ = tick.buttons;
-      each();
+      each(pressed);
     }
     return changed;
   }

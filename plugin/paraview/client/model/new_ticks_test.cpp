@@ -21,8 +21,10 @@ struct NewTicksTest : ::testing::Test {
   }
   NewTicks::Buttons read() {
     seen.clear();
-    return ticks.read(ring, tick, shares, [this] {
+    pressed_together.clear();
+    return ticks.read(ring, tick, shares, [this](std::uint32_t pressed) {
       seen.push_back(tick.index);
+      if (pressed != 0) pressed_together.push_back(pressed);
       EXPECT_EQ(shares.size(), tick.share_count);
     });
   }
@@ -33,6 +35,7 @@ struct NewTicksTest : ::testing::Test {
   TickRecord tick;
   std::vector<PrimitiveRecord> shares;
   std::vector<std::uint64_t> seen;
+  std::vector<std::uint32_t> pressed_together;
 };
 
 TEST_F(NewTicksTest, EachIsSeenOnceWithItsOwnShares) {
@@ -76,6 +79,14 @@ TEST_F(NewTicksTest, EveryPressAndReleaseSinceTheLastPollCounts) {
   }
 }
 
+/// Two keys that are pressed one after the other are not one key that is both.
+TEST_F(NewTicksTest, WhatIsPressedInOneTickIsToldTogether) {
+  for (const std::uint32_t buttons : {4, 0, 1, 5, 4, 1, 0, 5, 7}) write(buttons);
+  const NewTicks::Buttons changed = read();
+  EXPECT_EQ(changed.pressed, 7U);
+  EXPECT_THAT(pressed_together, ::testing::ElementsAre(4, 1, 4, 1, 5, 2));
+}
+
 TEST_F(NewTicksTest, ARestartedSessionIsReadFromItsFirstTick) {
   write(3);
   write(3);
@@ -89,7 +100,7 @@ TEST_F(NewTicksTest, ARestartedSessionIsReadFromItsFirstTick) {
   }
   const auto read_again = [&] {
     seen.clear();
-    return ticks.read(again, tick, shares, [this] { seen.push_back(tick.index); });
+    return ticks.read(again, tick, shares, [this](std::uint32_t) { seen.push_back(tick.index); });
   };
   read_again();
   EXPECT_THAT(seen, ::testing::IsEmpty()) << "it does not know yet";

@@ -102,7 +102,7 @@ void SessionController::take_scan(std::shared_ptr<const io::Volume> volume, cons
     live_.set_scan(nullptr);
     problem = QString::fromUtf8(error.what());
   }
-  if (live_.plan()) workspace_.set(live_.plan()->workspace);
+  follow_workspace();
   if (std::exchange(coming_.begins_outside, false)) begin_outside();
   emit felt_scan_changed();
   emit connection_changed();
@@ -123,7 +123,7 @@ void SessionController::commit(const modes::Scene& scene, Pace pace) {
 void SessionController::follow_workspace() {
   if (!live_.plan() || !workspace_.change_to(live_.plan()->workspace, live_.epoch())) return;
   hand_.forget_place();
-  // The stylus slides through the patient to its new place: no force may meet it on its way.
+  // The stylus jumps to another place in the patient: the force comes back when the user asks for it.
   if (feels()) release();
 }
 
@@ -333,9 +333,8 @@ bool SessionController::may_remap() const {
   return !live_.is_connected() || (!feels() && status_.force_n == 0);
 }
 
-void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let) {
-  // Where one key is both (the Falcon's in the middle) it is the first.
-  if ((pressed & release_button) != 0 && (pressed & clutch_button) == 0) release();
+void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let, bool releases) {
+  if (releases) release();
   if ((pressed & clutch_button) != 0) clutch();
   if ((let & clutch_button) != 0) emit clutch_button_let_go();
 }
@@ -352,7 +351,10 @@ void SessionController::poll() {
     return;
   }
   std::vector<double> ticks;
-  const NewTicks::Buttons buttons = ticks_.read(*ring, status_.tick, status_.shares, [&] {
+  bool releases = false;
+  const NewTicks::Buttons buttons = ticks_.read(*ring, status_.tick, status_.shares, [&](std::uint32_t pressed) {
+    // Where one key is both (the Falcon's in the middle) it is the clutch.
+    if ((pressed & release_button) != 0 && (pressed & clutch_button) == 0) releases = true;
     status_.fresh = true;
     status_.peak_n = std::max(status_.peak_n, glm::length(vector_of(status_.tick.sent_n)));
     ticks.push_back(tick_us(status_.tick));
@@ -389,7 +391,7 @@ void SessionController::poll() {
   status_.held = held ? in_words(*held) : "";
   // On an edge the value is one of neither side: half-way from air to muscle it is fat's.
   if (held && live_.scene().modes[held->mode].structure.empty()) status_.tissue = "between tissues";
-  obey_buttons(buttons.pressed, buttons.let & ~tick.buttons);
+  obey_buttons(buttons.pressed, buttons.let & ~tick.buttons, releases);
   hand_.give_way(tick, status_.force_n);
   emit polled(status_);
 }

@@ -169,7 +169,7 @@ class SessionController : public QObject {
   void follow_workspace();
   void poll();
   /// The buttons pressed and released since the last poll.
-  void obey_buttons(std::uint32_t pressed, std::uint32_t let);
+  void obey_buttons(std::uint32_t pressed, std::uint32_t let, bool releases);
   void follow_marks();
 
   SceneModel& model_;

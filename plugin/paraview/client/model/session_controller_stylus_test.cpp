@@ -109,6 +109,23 @@ TEST_F(SessionOfAStylus, AClutchButtonThatIsDownHoldsTheClutch) {
   EXPECT_TRUE(comes([this] { return unclutches == 1; }));
 }
 
+/// While the panel is busy: the force is released and the clutch is pressed. They are not one key that is both.
+TEST_F(SessionOfAStylus, ForceThatIsReleasedBeforeTheClutchStaysOff) {
+  ASSERT_TRUE(is_connected());
+  ASSERT_TRUE(is_felt());
+  for (const std::uint32_t buttons : {4U, 0U, 1U}) {
+    hold_down(buttons);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // no poll comes in between
+  }
+  EXPECT_TRUE(comes([this] { return session.is_clutched(); }));
+  ASSERT_TRUE(holds_down(0));
+  EXPECT_TRUE(comes([this] { return unclutches == 1; }));
+  session.unclutch(last().workspace.rotation);
+  polls(10);
+  EXPECT_FALSE(session.is_clutched());
+  EXPECT_FALSE(last().feels);
+}
+
 TEST_F(SessionOfAStylus, ItsOrientationIsInThePatient) {
   ASSERT_TRUE(is_connected());
   ASSERT_TRUE(comes([this] { return last().orientation.has_value(); }));
