@@ -15,6 +15,7 @@
 #include "io/structures/structure.h"
 #include "io/testing/comma_locale.h"
 #include "io/testing/test_image.h"
+#include "io/testing/working_folder.h"
 
 namespace palpate::io::internal {
 namespace {
@@ -72,6 +73,27 @@ TEST(FindFiles, DicomdirStandsForItsFolder) {
   write_stack(folder.path(), 3);
   std::ofstream(folder / "DICOMDIR") << "whatever it says";
   EXPECT_EQ(find_series(std::array{folder / "DICOMDIR"}).series.at(0).geometry.dimensions.z, 3);
+}
+
+// As it is named in the folder of a CD.
+TEST(FindFiles, DicomdirStandsForItsFolderByItsNameAlone) {
+  for (const char* const name : {"DICOMDIR", "dicomdir"}) {
+    const TestFolder folder;
+    std::filesystem::create_directory(folder / "below");
+    write_stack(folder / "below", 3);
+    std::ofstream(folder / name) << "whatever it says";
+    const auto found_as = [](const std::filesystem::path& named) {
+      const Catalogue found = find_series(std::array{named});
+      return found.series.empty() ? 0 : found.series[0].geometry.dimensions.z;
+    };
+    {
+      const testing::WorkingFolder here(folder.path());
+      EXPECT_EQ(found_as(name), 3) << name;
+      EXPECT_EQ(found_as(std::filesystem::path(".") / name), 3) << name;
+    }
+    const testing::WorkingFolder below(folder / "below");
+    EXPECT_EQ(found_as(std::filesystem::path("..") / name), 3) << name;
+  }
 }
 
 TEST(FindFiles, CancelledHalfWayLeavesNothingRunning) {

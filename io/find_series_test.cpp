@@ -287,6 +287,34 @@ TEST(FindSeries, ReadableCopyWinsOverTruncatedTwin) {
   EXPECT_EQ(found.skipped[0].path.filename(), "a_cut.dcm");
 }
 
+// A slice that was acquired once more, because its first image is no good.
+TEST(FindSeries, AGoodRepeatWinsOverATruncatedImageThatCameFirst) {
+  struct Order {
+    DcmTagKey tag;
+    const char *first, *later;
+  };
+  for (const Order& by : {Order{DCM_AcquisitionTime, "100000", "110000"},
+                          {DCM_ContentTime, "100000", "110000"},
+                          {DCM_InstanceNumber, "1", "2"}}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 4, [&](int, TestImage& image) {
+      image.edit = [&](DcmDataset& d) { put(d, by.tag, std::string(by.later)); };
+    });
+    TestImage first;  // of the place of s0.dcm, and another SOP instance
+    first.value = [](int, int) { return 7; };
+    first.edit = [&](DcmDataset& d) { put(d, by.tag, std::string(by.first)); };
+    write(first, folder / "cut.dcm");
+    std::filesystem::resize_file(folder / "cut.dcm", std::filesystem::file_size(folder / "cut.dcm") - 10);
+    const Catalogue found = find_in(folder);
+    ASSERT_THAT(found.skipped, SizeIs(1)) << by.tag.toString().c_str();
+    EXPECT_EQ(found.skipped[0].path.filename(), "cut.dcm");
+    ASSERT_THAT(found.series, SizeIs(1));
+    const Volume volume = load(found.series[0]);
+    ASSERT_EQ(volume.geometry.dimensions.z, 4);
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(volume.value_at(3, 2, k), 100 * k + 32) << k;
+  }
+}
+
 struct Unfit {
   const char* name;
   std::function<void(DcmDataset&)> edit;

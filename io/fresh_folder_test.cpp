@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/testing/working_folder.h"
+
 namespace palpate::io {
 namespace {
 
@@ -50,6 +52,28 @@ TEST(FreshFolder, IsThereWholeOrNotAtAll) {
     EXPECT_EQ(entries_in(parent), 1U);
     EXPECT_THROW(FreshFolder again(place), std::runtime_error) << "there is something in it";
     fs::remove_all(scratch.path() / std::string(name).substr(0, std::string(name).find('/')));
+  }
+}
+
+// A path is from the working folder on, with or without a folder before its name.
+TEST(FreshFolder, OfAPathThatIsNotAbsoluteIsInTheWorkingFolder) {
+  for (const char* const name : {"out", "out/", "./out", "deep/er/out", "../beside"}) {
+    for (const bool at_once : {false, true}) {
+      const FreshFolder scratch = temporary_folder();
+      const fs::path from = scratch.path() / "from";
+      fs::create_directory(from);
+      const testing::WorkingFolder here(from);
+      const auto write = [](const fs::path& place) { std::ofstream(place / "whole") << "whole"; };
+      if (at_once) {
+        write_all_or_none(name, write);
+      } else {
+        FreshFolder folder{fs::path(name)};
+        write(folder.path());
+        EXPECT_FALSE(fs::exists(from / name)) << name;
+        folder.commit();
+      }
+      EXPECT_TRUE(fs::exists(from / name / "whole")) << name;
+    }
   }
 }
 

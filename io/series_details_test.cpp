@@ -223,15 +223,26 @@ TEST(SeriesDetails, WhatIsSetApartHasAKind) {
   write_stack(folder.path(), 3);
   std::ofstream(folder / "notes.txt") << "not DICOM";
   std::ofstream(folder / "empty.dcm").flush();
-  const std::array<std::array<const char*, 2>, 9> kinds{{{UID_XRayRadiationDoseSRStorage, "dose report"},
-                                                         {UID_EnhancedSRStorage, "structured report"},
-                                                         {UID_KeyObjectSelectionDocumentStorage, "key object note"},
-                                                         {UID_RTStructureSetStorage, "structure set"},
-                                                         {UID_RTPlanStorage, "treatment plan"},
-                                                         {UID_SegmentationStorage, "segmentation"},
-                                                         {UID_RawDataStorage, "raw data file"},
-                                                         {UID_SpatialRegistrationStorage, "registration"},
-                                                         {UID_EncapsulatedPDFStorage, "document"}}};
+  // By PS3.6, table A-1.
+  const std::array<std::array<const char*, 2>, 18> kinds{
+      {{UID_XRayRadiationDoseSRStorage, "dose report"},
+       {UID_EnhancedSRStorage, "structured report"},
+       {UID_KeyObjectSelectionDocumentStorage, "key object note"},
+       {UID_RTStructureSetStorage, "structure set"},
+       {UID_RTPlanStorage, "treatment plan"},
+       {UID_RTDoseStorage, "dose distribution"},
+       {UID_SegmentationStorage, "segmentation"},
+       {UID_SurfaceSegmentationStorage, "segmentation"},
+       {UID_RawDataStorage, "raw data file"},
+       {UID_SpatialRegistrationStorage, "registration"},
+       {UID_DeformableSpatialRegistrationStorage, "registration"},
+       {UID_GrayscaleSoftcopyPresentationStateStorage, "presentation state"},
+       {UID_TwelveLeadECGWaveformStorage, "waveform"},
+       {UID_HemodynamicWaveformStorage, "waveform"},
+       {UID_SecondaryCaptureImageStorage, "screen capture"},
+       {UID_MultiframeTrueColorSecondaryCaptureImageStorage, "screen capture"},
+       {UID_ParametricMapStorage, "parametric map"},
+       {UID_EncapsulatedPDFStorage, "document"}}};
   std::vector<std::string> expected{"other file", "damaged file", "copy", "scout"};
   for (const auto& kind : kinds) {
     TestImage report;
@@ -240,7 +251,7 @@ TEST(SeriesDetails, WhatIsSetApartHasAKind) {
       d.findAndDeleteElement(DCM_PixelData);
       put(d, DCM_SOPClassUID, kind[0]);
     };
-    write(report, folder / kind[1]);
+    write(report, folder / kind[0]);
     expected.emplace_back(kind[1]);
   }
   TestImage scout;  // in the volume's series

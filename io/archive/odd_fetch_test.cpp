@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/archive/archive.h"
 #include "io/archive/fetch.h"
@@ -214,6 +218,91 @@ TEST(OddFetch, ThatGrowsIsNoticed) {
   ASSERT_EQ(fetched.warnings.size(), 1U);
   EXPECT_TRUE(says(fetched.warnings.front(),
                    "archive {} now holds {} images of {}, and {} came: it may still be growing; fetch it again"));
+}
+
+/// What comes of a study, and how many images it is said to have; of 0 nothing is said.
+struct OfStudy {
+  int sent = 0, unasked = 0, failed = 0, count = 0;
+
+  std::string uid() const {
+    std::string uid = "1.2.3";
+    for (const int digit : {sent, unasked, failed, count}) uid += "." + std::to_string(digit);
+    return uid;
+  }
+  std::vector<std::string> warnings() const {
+    const std::string study = "study " + uid();
+    std::vector<std::string> said;
+    if (failed > 0)
+      said.push_back(std::to_string(failed) + " of " + std::to_string(sent + failed) + " images of " + study);
+    if (unasked > 0) said.push_back("also sent " + std::to_string(unasked) + " objects");
+    if (failed == 0 && count > sent) {
+      said.push_back("now holds " + std::to_string(count) + " images of " + study + ", and " + std::to_string(sent) +
+                     " came");
+    }
+    return said;
+  }
+};
+
+/// Of several studies each is counted by itself, in either order.
+TEST(OddFetch, OfSeveralIsToldOfEach) {
+  std::vector<OfStudy> studies{{2, 0, 0, 2}, {1, 2, 0, 1}, {3, 0, 2, 5}, {1, 0, 0, 2}, {1, 1, 1, 0}, {2, 0, 0, 3}};
+  for (const bool backwards : {false, true}) {
+    if (backwards) std::ranges::reverse(studies);
+    std::vector<std::string> uids, wanted;
+    std::size_t files = 0;
+    for (const OfStudy& one : studies) {
+      uids.push_back(one.uid());
+      files += static_cast<std::size_t>(one.sent);
+      std::ranges::copy(one.warnings(), std::back_inserter(wanted));
+    }
+    OddArchive odd("as-its-uid-says");
+    const Fetched fetched = fetch(odd.archive(), uids, odd.folder());
+    EXPECT_EQ(fetched.files, files);
+    ASSERT_EQ(fetched.warnings.size(), wanted.size()) << "with " << uids.front() << " first";
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      EXPECT_THAT(std::string(fetched.warnings[n]), HasSubstr(wanted[n])) << "with " << uids.front() << " first";
+    }
+  }
+}
+
+/// Why nothing came of the last study has nothing to do with what came of those before.
+TEST(OddFetch, OfSeveralIsRefusedForWhatCameOfTheLast) {
+  for (const auto& [last, why] : {std::pair{OfStudy{0, 0, 0, 2}, "the archive has no images of it"},
+                                  {OfStudy{0, 1, 0, 2}, "it sent something else"},
+                                  {OfStudy{0, 0, 2, 2}, "all 2 of its images failed"}}) {
+    for (const OfStudy& first : {OfStudy{1, 2, 0, 1}, {2, 0, 0, 2}, {1, 0, 3, 4}}) {
+      OddArchive odd("as-its-uid-says");
+      std::string said = "no refusal";
+      try {
+        fetch(odd.archive(), {first.uid(), last.uid()}, odd.folder());
+      } catch (const ArchiveError& error) {
+        said = error.what();
+      }
+      EXPECT_THAT(said, HasSubstr("study " + last.uid()));
+      EXPECT_THAT(said, HasSubstr(why)) << first.uid();
+    }
+  }
+}
+
+/// The sum of all counts; where one is not known, the sum is not.
+TEST(OddFetch, OfSeveralExpectsAsManyAsAllTogether) {
+  const OfStudy two{2, 0, 0, 2}, four{4, 0, 0, 4}, unknown{3, 0, 0, 0};
+  for (const auto& [studies, sum] : {std::pair{std::vector{two, four}, 6},
+                                     {{unknown}, -1},
+                                     {{unknown, four}, -1},
+                                     {{two, unknown}, -1},
+                                     {{two, unknown, four}, -1},
+                                     {{unknown, unknown}, -1}}) {
+    std::vector<std::string> uids;
+    for (const OfStudy& one : studies) uids.push_back(one.uid());
+    OddArchive odd("as-its-uid-says");
+    std::set<int> expected{-1};  // as long as the archive is asked
+    fetch(odd.archive(), uids, odd.folder(), {}, [&](const FetchProgress& progress) {
+      expected.insert(progress.expected);
+      return true;
+    });
+    EXPECT_EQ(expected, (std::set<int>{-1, sum})) << ::testing::PrintToString(uids);
+  }
 }
 
 /// Whether a series has grown is asked at the end. All has come by then, whatever is answered.

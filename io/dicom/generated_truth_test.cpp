@@ -199,6 +199,7 @@ std::vector<Uint8> csa_header(const std::map<std::string, std::vector<double>>& 
 struct Mosaic {
   Vec3 along_i = glm::normalize(Vec3(1, 0.2, 0)), along_j = glm::normalize(Vec3(-0.2, 1, 0));
   Vec3 normal = glm::cross(along_i, along_j), corner{-40, 10, 5};
+  bool says_distance = true;  // of its slices: else they are as far apart as they are thick
 
   static int value(int i, int j, int tile) { return 1000 * tile + 50 * j + i + 1; }
   /// `sense`: which way slices are counted, along the normal or against it. `more`: of Siemens' private header.
@@ -217,7 +218,7 @@ struct Mosaic {
       put(d, DCM_ImageOrientationPatient, digits(along_i) + "\\" + digits(along_j));
       put(d, DCM_PixelSpacing, digits({2.5, 2}));  // rows 2.5 mm apart, columns 2 mm
       put(d, DCM_SliceThickness, std::string("2.25"));
-      put(d, DCM_SpacingBetweenSlices, std::string("3"));
+      if (says_distance) put(d, DCM_SpacingBetweenSlices, std::string("3"));
       std::map<std::string, std::vector<double>> values{
           {"NumberOfImagesInMosaic", {5}},
           {"SliceNormalVector", {sense * normal.x, sense * normal.y, sense * normal.z}}};
@@ -262,6 +263,27 @@ TEST(GeneratedTruthWithJudgement, MosaicIsTakenApart) {
           }
         }
       }
+    }
+  }
+}
+
+/// Slices without a gap often say no distance.
+TEST(GeneratedTruthWithJudgement, MosaicWithoutADistanceHasSlicesAsFarApartAsTheyAreThick) {
+  for (const double sense : {1.0, -1.0}) {
+    Mosaic mosaic;
+    mosaic.says_distance = false;
+    const TestFolder folder;
+    mosaic.write_to(folder / "mosaic.dcm", sense);
+    const Catalogue found = internal::find_in(folder);
+    ASSERT_EQ(found.series.size(), 1U);
+    const Volume volume = load(found.series[0]);
+    ASSERT_EQ(volume.geometry.dimensions, glm::ivec3(6, 4, 5));
+    const Vec3 first = mosaic.corner + 0.5 * (18 - 6) * 2.0 * mosaic.along_i + 0.5 * (12 - 4) * 2.5 * mosaic.along_j;
+    for (int k = 0; k < 5; ++k) {
+      const int tile = sense > 0 ? k : 4 - k;
+      expect_near(volume.geometry.slice_positions[static_cast<std::size_t>(k)],
+                  first + 2.25 * sense * tile * mosaic.normal, 1e-9, "position");
+      EXPECT_EQ(volume.value_at(2, 1, k), Mosaic::value(2, 1, tile)) << k;
     }
   }
 }

@@ -66,6 +66,29 @@ TEST(OddSeries, WithoutASeriesUidAFolderIsASeries) {
   for (const Series& series : found.series) EXPECT_EQ(series.frames_per_position, 1);
 }
 
+TEST(OddSeries, WithoutASeriesUidEachDescriptionInAFolderIsASeries) {
+  const TestFolder folder;
+  for (const char* described : {"soft", "sharp", ""}) {
+    for (int k = 0; k < 3; ++k) {
+      TestImage image;
+      image.series = "";
+      image.z = 2.0 * k;
+      image.edit = [=](DcmDataset& d) { put(d, DCM_SeriesDescription, described); };
+      write(image, folder / (std::string(described) + std::to_string(k)));
+    }
+  }
+  const Catalogue found = find_in(folder);
+  ASSERT_THAT(found.series, SizeIs(3));
+  for (const Series& series : found.series) {
+    EXPECT_EQ(series.frames_per_position, 1) << series.description;
+    EXPECT_THAT(series.files, SizeIs(3));
+    for (const fs::path& file : series.files) {
+      const std::string name = file.filename().string();
+      EXPECT_EQ(name.substr(0, name.size() - 1), series.description);
+    }
+  }
+}
+
 TEST(OddSeries, OneInstanceUidForAllSlicesLosesNone) {
   const TestFolder folder;
   write_stack(folder.path(), 5, [](int, TestImage& image) { image.instance = "1.2.3.4.5"; });
@@ -123,6 +146,29 @@ TEST(OddSeries, CopyWithOtherPixelsIsSaidToBeOne) {
     EXPECT_THAT(found.skipped, SizeIs(3));
     EXPECT_THAT(series.warnings, Contains(HasSubstr("with other pixels")).Times(1));
     EXPECT_EQ(load(series).value_at(3, 2, 1), 132);  // of the first in the order of names
+  }
+}
+
+// Of two files of one image that differ, the first in the order of names is read, and the series says so.
+TEST(OddSeries, OfTwoCopiesTheOneThatIsUsedIsNamedAsUsed) {
+  struct Copy {
+    std::string name, used, left;
+    int value;
+  };
+  for (const Copy& copy : {Copy{"a.dcm", "a.dcm", "s1.dcm", 7}, {"z.dcm", "s1.dcm", "z.dcm", 132}}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 3, [](int k, TestImage& image) { image.instance = numbered("1.2.7.", k); });
+    TestImage other;
+    other.z = 2;
+    other.instance = "1.2.7.1";
+    other.value = [](int, int) { return 7; };
+    write(other, folder / copy.name);
+    const Catalogue found = find_in(folder);
+    ASSERT_THAT(found.skipped, SizeIs(1));
+    EXPECT_EQ(found.skipped[0].path.filename(), copy.left);
+    const Series& series = found.series.at(0);
+    EXPECT_THAT(series.warnings, Contains(HasSubstr(copy.used + " is used and not " + copy.left + ",")));
+    EXPECT_EQ(load(series).value_at(3, 2, 1), copy.value);
   }
 }
 

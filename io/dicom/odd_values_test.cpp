@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <glm/geometric.hpp>
 #include <tuple>
 #include <utility>
 
@@ -33,6 +34,37 @@ TEST(OddValues, RescaleThatIsNoNumberIsRefusedAndNotTakenForNone) {
     image.edit = [&](DcmDataset& d) { put(d, DCM_RescaleSlope, slope); };
     write(image, folder / "image");
     EXPECT_THAT(only_reason(find_in(folder)), HasSubstr("rescale slope")) << slope;
+  }
+}
+
+// PS3.5 6.2: a decimal string may begin with a sign, and may have an exponent.
+TEST(OddValues, NumbersWithAPlusAreTheSameNumbers) {
+  struct Written {
+    const char *one, *half, *three_quarters, *two, *seven;
+  };
+  for (const Written& as : {Written{"1", "0.5", "0.75", "2", "7"},
+                            {"+1", "+0.5", "+0.75", "+2", "+7"},
+                            {" +1 ", "+.5", "+75E-2", "+0.2e+1", "+7.0E0"}}) {
+    const TestFolder folder;
+    write_stack(folder.path(), 3, [&](int k, TestImage& image) {
+      image.edit = [&, k](DcmDataset& d) {
+        const std::string one = as.one, two = as.two;
+        put(d, DCM_ImagePositionPatient, one + "\\" + as.seven + "\\+" + std::to_string(2 * k));
+        put(d, DCM_ImageOrientationPatient, one + "\\0\\+0\\-0\\" + one + "\\0");
+        put(d, DCM_PixelSpacing, std::string(as.half) + "\\" + as.three_quarters);
+        put(d, DCM_SliceThickness, two);
+        put(d, DCM_RescaleSlope, two);
+        put(d, DCM_RescaleIntercept, as.seven);
+      };
+    });
+    const Volume volume = load(only_series_in(folder));
+    EXPECT_EQ(volume.geometry.spacing_i, 0.75) << as.one;
+    EXPECT_EQ(volume.geometry.spacing_j, 0.5);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LT(glm::distance(volume.geometry.slice_positions.at(static_cast<std::size_t>(k)), Vec3(1, 7, 2 * k)),
+                1e-9);
+      EXPECT_EQ(volume.value_at(3, 2, k), 2 * (100 * k + 32) + 7);
+    }
   }
 }
 

@@ -62,6 +62,26 @@ TEST(TornSeries, APatientsIdThatIsBlankInSomeFilesIsThatOfTheOthers) {
   }
 }
 
+// Both at once: the blanks are filled in before the frames of reference are compared.
+TEST(TornSeries, AStackThatLostIdsAndFramesOfReferenceIsOne) {
+  const std::vector<std::function<bool(int)>> blanks{[](int k) { return k % 2 == 0; }, [](int k) { return k < 6; },
+                                                     [](int k) { return k > 0; }, [](int k) { return k == 11; }};
+  for (std::size_t n = 0; n < blanks.size(); ++n) {
+    const TestFolder folder;
+    write_stack(folder.path(), 12, [&](int k, TestImage& image) {
+      image.edit = [&, k](DcmDataset& d) {
+        put(d, DCM_PatientID, blanks[n](k) ? "" : "id 7");
+        put(d, DCM_FrameOfReferenceUID, numbered("1.2.77.", k));
+      };
+    });
+    const Catalogue found = find_in(folder);
+    ASSERT_THAT(found.series, SizeIs(1)) << n;
+    EXPECT_TRUE(found.series[0].usable) << n;
+    EXPECT_EQ(found.series[0].geometry.dimensions.z, 12) << n;
+    EXPECT_EQ(found.series[0].identity.patient_id, "id 7") << n;
+  }
+}
+
 TEST(TornSeries, PatientsOfDifferentIdsOrNamesAreNeverMixed) {
   EXPECT_THAT(with_ids([](int k) { return k % 2 == 0 ? "id 7" : "id 8"; }).series, SizeIs(2));
   EXPECT_THAT(with_ids([](int k) { return k % 3 == 0 ? "" : k % 3 == 1 ? "id 7" : "id 8"; }).series, SizeIs(3));

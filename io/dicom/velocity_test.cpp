@@ -61,6 +61,56 @@ TEST(Velocity, OfAnEnhancedFileIsJoined) {
   }
 }
 
+// Frames that name the unit of their rescale are in it, whatever largest velocity they were encoded for.
+TEST(Velocity, OfAnEnhancedFileIsInTheUnitOfItsRescale) {
+  struct Unit {
+    const char* name;
+    double meters_per_second, slope, intercept;
+  };
+  for (const Unit& unit : {Unit{"m/s", 1, 0.002, -3}, {"cm/s", 0.01, 0.25, -400}, {"mm/s", 0.001, -2, 3000}}) {
+    for (const bool has_largest : {false, true}) {
+      for (const bool shared : {false, true}) {
+        SCOPED_TRACE(::testing::Message() << unit.name << ' ' << has_largest << ' ' << shared);
+        const auto rescale = [&](DcmItem& groups) {
+          DcmItem& values = group(groups, DCM_PixelValueTransformationSequence);
+          succeed(values.putAndInsertString(DCM_RescaleType, unit.name));
+          succeed(values.putAndInsertString(DCM_RescaleSlope, std::to_string(unit.slope).c_str()));
+          succeed(values.putAndInsertString(DCM_RescaleIntercept, std::to_string(unit.intercept).c_str()));
+        };
+        const TestFolder folder;
+        std::vector<double> heights;
+        for (int n = 0; n < 9; ++n) heights.push_back(2.0 * (n % 3));
+        TestImage image;
+        image.value = [](int i, int j) { return 1000 + 100 * i + 7 * j; };
+        image.edit = [&](DcmDataset& d) {
+          repeat_pixels(d, heights.size());
+          make_multi_frame(d, heights, [&](std::size_t n, DcmItem& frame) {
+            succeed(group(frame, DCM_MRImageFrameTypeSequence).putAndInsertString(DCM_ComplexImageComponent, "PHASE"));
+            DcmItem& velocity = group(frame, DCM_MRVelocityEncodingSequence);
+            std::array<double, 3> along{};
+            along[n / 3] = 1;
+            succeed(velocity.putAndInsertFloat64Array(DCM_VelocityEncodingDirection, along.data(), 3));
+            if (has_largest) succeed(velocity.putAndInsertFloat64(DCM_VelocityEncodingMaximumValue, 150));
+            if (!shared) rescale(frame);
+          });
+          if (shared) rescale(group(d, DCM_SharedFunctionalGroupsSequence));
+        };
+        write(image, folder / "enhanced");
+        const Catalogue found = find_in(folder);
+        ASSERT_THAT(found.velocity_fields, SizeIs(1));
+        const Volume volume = load(found.velocity_fields[0]);
+        ASSERT_TRUE(volume.vectors);
+        for (const auto& component : volume.vectors->along) {
+          for (int i = 0; i < 6; ++i) {
+            const double speed = unit.meters_per_second * (unit.slope * (1000 + 100 * i + 14) + unit.intercept);
+            EXPECT_NEAR(component->value_at(i, 2, 1), speed, 1e-9);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Velocity, NamedByTheSequenceIsJoined) {
   const TestFolder folder;
   constexpr std::array names{"*fl3d1_v80rl", "*fl3d1_v80ap", "*fl3d1_v80hf"};  // the last against the z axis

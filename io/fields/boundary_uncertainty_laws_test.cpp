@@ -176,6 +176,32 @@ TEST(BoundaryUncertaintyLaws, AnotherValueThanTheMiddleIsSaidByItsDistance) {
   }
 }
 
+/// Nothing beyond 8 mm is stated, whatever was found there.
+TEST(BoundaryUncertaintyLaws, MoreThanTheMostThatIsStatedIsUnknown) {
+  constexpr double most_mm = 8, blur_mm = 8;
+  Geometry g;
+  g.dimensions = {60, 60, 60};
+  g.spacing_i = g.spacing_j = 3;
+  g.step = {0, 0, 3};
+  for (int k = 0; k < 60; ++k) g.slice_positions.push_back(static_cast<double>(k) * g.step);
+  const Vec3 place = g.to_patient({30.2, 30.1, 30.3}), normal = glm::normalize(Vec3(0.4, -0.7, 0.5));
+  for (const double offset_mm : {-11.0, -9.0, -7.0, -3.0, 0.0, 3.0, 7.0, 9.0, 11.0}) {
+    FormulaSource source;
+    source.gradient = normal;
+    source.value = [&](const Vec3& at) {
+      return 100 * blurred_step(glm::dot(normal, at - place) + offset_mm, blur_mm);
+    };
+    const BoundaryUncertainty known = uncertainty_at(source, g, ValueMethod::cubic, place);
+    EXPECT_NEAR(known.level_mm, offset_mm, 0.05 * blur_mm) << "the edge itself is found";
+    if (std::abs(offset_mm) > most_mm) {
+      EXPECT_EQ(known.two_sigma_mm, std::numeric_limits<double>::infinity()) << offset_mm;
+    } else {
+      EXPECT_GT(known.two_sigma_mm, 0.97 * std::abs(known.level_mm));
+      EXPECT_LE(known.two_sigma_mm, most_mm) << offset_mm;
+    }
+  }
+}
+
 /// A smooth gradient is met before the boundary that it is of: there the value does not rise yet.
 TEST(BoundaryUncertaintyLaws, WhereOnlyTheGradientIsSteepTheBoundaryIsAsFarAsTheValueRises) {
   for (const double ahead_mm : {-4.0, -2.5, 2.5, 4.0}) {

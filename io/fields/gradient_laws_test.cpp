@@ -102,6 +102,52 @@ TEST(GradientScale, OfCentralDifferencesIsHalfOfWhatTheySpan) {
   }
 }
 
+// Unknown where a slice of the neighborhood is missing, at either end of the stack; known where all of it is there.
+TEST(SecondDerivatives, AreKnownWhereTheWholeNeighborhoodIsInTheScan) {
+  for (const double lean : {0.0, 0.3}) {
+    for (const double apart : {0.8, 1.2, 2.0}) {
+      auto volume = std::make_shared<Volume>();
+      Geometry& g = volume->geometry;
+      const glm::ivec3 size(21, 20, 17);
+      g.dimensions = size;
+      g.spacing_i = 0.7;
+      g.spacing_j = 0.8;
+      g.step = {0, lean, apart};
+      for (int k = 0; k < size.z; ++k) g.slice_positions.push_back(static_cast<double>(k) * g.step);
+      std::mt19937 random(5);
+      std::vector<float> voxels;
+      for (int n = 0; n < size.x * size.y * size.z; ++n) {
+        voxels.push_back(std::uniform_real_distribution<float>(0, 1000)(random));
+      }
+      volume->voxels = std::move(voxels);
+      const GradientKernel kernel(volume, 1);
+      const glm::ivec3 reach = kernel.radius();
+      std::vector<GradientKernel::Hessian> found(static_cast<std::size_t>(size.x * size.y * size.z));
+      kernel.hessians_at_block({glm::ivec3(0), size}, found);
+      int known = 0;
+      auto hessian = found.begin();
+      for (int k = 0; k < size.z; ++k) {
+        for (int j = 0; j < size.y; ++j) {
+          for (int i = 0; i < size.x; ++i, ++hessian) {
+            const bool all_slices = k >= reach.z && k + reach.z < size.z;
+            const bool all_there =
+                all_slices && i >= reach.x && i + reach.x < size.x && j >= reach.y && j + reach.y < size.y;
+            const bool is_known = std::isfinite((*hessian)[0]);
+            if (all_there) {
+              ASSERT_TRUE(is_known) << i << ' ' << j << ' ' << k;
+            }
+            if (!all_slices || (lean == 0 && !all_there)) {
+              ASSERT_FALSE(is_known) << i << ' ' << j << ' ' << k;
+            }
+            known += is_known ? 1 : 0;
+          }
+        }
+      }
+      EXPECT_GT(known, 500);
+    }
+  }
+}
+
 // A curvature that changes values by a ten-thousandth over the kernel is still felt.
 TEST(SecondDerivativesOfAParabola, AreThoseOfItsMatrixHoweverWeak) {
   const glm::dmat3 curved(0.030, 0.008, -0.005, 0.008, -0.022, 0.006, -0.005, 0.006, 0.018);

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "io/fields/evenly_spread.h"
@@ -91,8 +93,18 @@ TEST(LowHighHistogram, CountsEachEdgeByItsTwoSides) {
       }
     }
   }
-  const std::vector<LowHighHistogram> found = low_high_histograms(*volume, kernel, values, least);
+  std::mutex adding;
+  std::vector<std::uint64_t> used(std::size_t{44} * 44);
+  const auto use = [&](std::span<const CountedEdge> edges) {
+    const std::scoped_lock lock(adding);
+    for (const CountedEdge& edge : edges) {
+      ++used[static_cast<std::size_t>(edge.high) * 44 + static_cast<std::size_t>(edge.low)];
+      EXPECT_EQ(edge.gradient, gradients[volume->offset(edge.voxel.x, edge.voxel.y, edge.voxel.z)]);
+    }
+  };
+  const std::vector<LowHighHistogram> found = low_high_histograms(*volume, kernel, values, least, {}, 0, use);
   ASSERT_EQ(found.size(), least.size());
+  EXPECT_EQ(used, counts[0]) << "those above the first of the least magnitudes are used, though it is not the least";
   for (std::size_t h = 0; h < least.size(); ++h) {
     EXPECT_EQ(found[h].counts, counts[h]) << least[h];
     EXPECT_EQ(found[h].voxels, std::accumulate(counts[h].begin(), counts[h].end(), std::uint64_t{0})) << least[h];

@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "io/fields/volume_fields.h"
@@ -171,6 +172,57 @@ TEST(LowHigh, end_in_a_lull_before_the_next_rise) {
       }
     }
   }
+}
+
+// In a mirror across the slices, with the values turned round, the two sides change places: also where the slices below
+// a voxel are nearer than those above.
+TEST(LowHigh, change_places_in_a_mirror_whatever_the_slices) {
+  constexpr int side = 24;
+  int different = 0;
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    std::mt19937 random(seed);
+    const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const Vec3 waves(any(0.2, 0.5), any(0.2, 0.5), any(0.2, 0.5));
+    const Vec3 phases(any(0, 6), any(0, 6), any(0, 6));
+    std::vector<double> heights{0};
+    for (int k = 1; k < side; ++k) heights.push_back(heights.back() + (k % 2 == 0 ? any(0.6, 0.9) : any(2, 3)));
+    const auto value = [&](int i, int j, double z) {
+      return 300 * (std::sin(waves.x * i + phases.x) + std::sin(waves.y * j + phases.y) +
+                    std::sin(waves.z * z + phases.z)) +
+             40 * z;
+    };
+    Volume volume, mirrored;
+    for (Volume* const one : {&volume, &mirrored}) {
+      Geometry& g = one->geometry;
+      g.dimensions = glm::ivec3(side);
+      g.spacing_i = 0.8;
+      g.spacing_j = 1.1;
+      g.step = {0, 0, heights.back() / (side - 1)};
+      g.uniform = false;
+      std::vector<float> voxels;
+      for (std::size_t n = 0; n < side; ++n) {
+        const double z = one == &volume ? heights[n] : heights[side - 1 - n];
+        g.slice_positions.emplace_back(0, 0, one == &volume ? z : -z);
+        for (int j = 0; j < side; ++j) {
+          for (int i = 0; i < side; ++i)
+            voxels.push_back(static_cast<float>((one == &volume ? 1 : -1) * value(i, j, z)));
+        }
+      }
+      one->voxels = std::move(voxels);
+    }
+    for (int n = 0; n < 20; ++n) {
+      const glm::ivec3 voxel(6 + n % 11, 7 + n % 9, 8 + n % 8);
+      const double scale = any(0.8, 2.5);
+      const Vec3 uphill(any(-40, 40), any(-40, 40), any(30, 200));
+      const LowHigh here = low_high_at(volume, voxel, uphill, scale);
+      const LowHigh there =
+          low_high_at(mirrored, {voxel.x, voxel.y, side - 1 - voxel.z}, {-uphill.x, -uphill.y, uphill.z}, scale);
+      EXPECT_NEAR(there.low, -here.high, 1e-2) << seed << ' ' << n;
+      EXPECT_NEAR(there.high, -here.low, 1e-2) << seed << ' ' << n;
+      different += here.high - here.low > 50 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(different, 100);
 }
 
 TEST(LowHigh, is_the_value_itself_where_there_is_no_boundary) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -260,6 +261,58 @@ TEST(VolumeFields, CentralDifferencesServeEveryFieldThatNeedsGradients) {
   EXPECT_LT(s.gradient.x, -50);
   EXPECT_NEAR(s.low, 40, 5);
   EXPECT_NEAR(s.high, 300, 5);
+}
+
+// A linear field of vectors is exact, with whatever method values and gradients are taken.
+TEST(VolumeFields, VectorsAreThereWithEveryMethod) {
+  const auto volume = linear_volume(small());
+  auto vectors = std::make_shared<VectorComponents>();
+  vectors->to_patient = glm::dmat3(0.8, 0.6, 0, -0.6, 0.8, 0, 0, 0, 1);
+  for (std::size_t n = 0; n < 3; ++n) {
+    Volume component = *volume;
+    component.slope = 0.01 * (static_cast<double>(n) + 1);
+    component.intercept = static_cast<double>(n) - 1;
+    vectors->along[n] = share(std::move(component));
+  }
+  volume->vectors = vectors;
+  constexpr FieldSet all = wanted | FieldSet::vector;
+  for (const GradientMethod gradient :
+       {GradientMethod::gaussian, GradientMethod::central_differences, GradientMethod::cubic}) {
+    for (const ValueMethod value : {ValueMethod::cubic, ValueMethod::trilinear}) {
+      const VolumeFields fields(volume, all, 1.5, {.gradient = gradient, .value = value});
+      for (const Vec3& at : {Vec3(0.2, -0.3, 0.4), Vec3(-5, 3.1, 2.2), Vec3(6.5, -6, -4.7)}) {
+        const double along = 7 + glm::dot(Vec3(3, -2, 5), at);
+        const Vec3 expected = vectors->to_patient * Vec3(0.01 * along - 1, 0.02 * along, 0.03 * along + 1);
+        for (const FieldSet asked : {all, FieldSet::vector}) {
+          EXPECT_LT(glm::distance(fields.sample(at, asked).vector, expected), 1e-5);
+        }
+        EXPECT_EQ(fields.sample(at, wanted).vector, Vec3(0)) << "nobody asked";
+      }
+    }
+  }
+}
+
+// Slices may be missing anywhere, and the first or the last may be alone behind them.
+TEST(VolumeFields, EverySliceIsInsideAndNoGapIs) {
+  const int slices = small().size.z;
+  for (int gap = 0; gap + 1 < slices; ++gap) {
+    for (const int other : {gap, 0, slices - 2}) {
+      const auto volume = linear_volume(small());
+      volume->geometry.gaps = {std::min(gap, other), std::max(gap, other)};
+      const VolumeFields fields(volume, FieldSet::value, 0, {.value = ValueMethod::trilinear});
+      for (int k = 0; k < slices; ++k) {
+        const Vec3 on = volume->geometry.to_patient({8.3, 7.1, k});
+        const Sample s = fields.sample(on, FieldSet::value);
+        ASSERT_TRUE(s.inside) << "slice " << k << ", gap " << gap;
+        EXPECT_NEAR(s.value, 7 + glm::dot(Vec3(3, -2, 5), on), 1e-4);
+        if (k + 1 == slices) continue;
+        for (const double part : {0.01, 0.5, 0.99}) {
+          const Vec3 between = volume->geometry.to_patient({8.3, 7.1, k + part});
+          EXPECT_EQ(fields.sample(between, FieldSet::value).inside, k != gap && k != other) << k << ", gap " << gap;
+        }
+      }
+    }
+  }
 }
 
 TEST(VolumeFields, GivesAndPreparesOnlyWhatIsWanted) {

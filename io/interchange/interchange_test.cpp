@@ -5,6 +5,9 @@
 #include <array>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "io/errors.h"
 #include "io/load.h"
@@ -163,6 +166,24 @@ TEST(Interchange, FilesThatDifferHaveOtherNames) {
   EXPECT_NE(uid_of(meta_place + "Comment = another\n", data), uid);
   data.back() = static_cast<char>(data.back() + 1);
   EXPECT_NE(uid_of(meta_place, data), uid);
+}
+
+// Air may lie above the patient. A voxel in the first 60 KiB tells two scans apart.
+TEST(Interchange, FilesThatDifferBehindMuchAirHaveOtherNames) {
+  const TestFolder folder;
+  std::string header = meta_image(meta_place + "ElementDataFile = a.raw\n");
+  header.replace(header.find("4 3 5"), 5, "40 40 40");
+  write_bytes(folder / "a.mhd", header);
+  const std::string air(std::size_t{2} * 40 * 40 * 40, '\0');
+  std::set<std::string> uids;
+  const std::vector<std::size_t> places{0, 1000, 5000, 9000, 17'000, 33'000, 61'439};
+  for (const std::size_t at : places) {
+    std::string data = air;
+    data[at] = '\1';
+    write_bytes(folder / "a.raw", data);
+    uids.insert(find_series(std::array{folder / "a.mhd"}).series.at(0).uid);
+  }
+  EXPECT_THAT(uids, SizeIs(places.size()));
 }
 
 // Beside a scan it is a map of it; alone and named it is what was meant.

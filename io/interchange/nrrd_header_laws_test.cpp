@@ -45,9 +45,9 @@ Vec3 place_in_nrrd(int a, int b, int c) {
   return {a - 4, 2 * b + 5, 3 * c + 6};
 }
 
-void expect_nrrd(const std::string& header, const Vec3& by = Vec3(1)) {
+void expect_nrrd(const std::string& header, const Vec3& by = Vec3(1), bool big = false) {
   const TestFolder folder;
-  write_bytes(folder / "a.nrrd", header + voxels<std::int16_t>());
+  write_bytes(folder / "a.nrrd", header + voxels<std::int16_t>(big));
   expect_all(
       only_volume(folder / "a.nrrd"), [&](int a, int b, int c) { return by * place_in_nrrd(a, b, c); }, stored);
 }
@@ -118,6 +118,15 @@ TEST(NrrdHeader, EverySpaceThatIsNamedByThePatientIsRead) {
         << other;
   }
   EXPECT_EQ(verdict_on("a.nrrd", nrrd_but("space", "") + voxels<std::int16_t>()), no_place);
+}
+
+/// In letters of any case.
+TEST(NrrdHeader, EveryWordForTheOrderOfBytesIsRead) {
+  for (const auto& [word, big] : std::vector<std::pair<std::string, bool>>{
+           {"little", false}, {"Little", false}, {"LITTLE", false}, {"big", true}, {"Big", true}, {"BIG", true}}) {
+    SCOPED_TRACE(word);
+    expect_nrrd(nrrd_but("endian", "endian: " + word + "\n"), Vec3(1), big);
+  }
 }
 
 TEST(NrrdHeader, EveryNameOfATypeIsRead) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "io/errors.h"
 #include "io/testing/file_bytes.h"
@@ -112,11 +113,17 @@ TEST(VoxelLattice, AFileIsLongEnoughWithItsLastByteAlone) {
   file.number = VoxelFile::Number::u32;
   file.first = 10;
   file.volumes = 2;
-  constexpr std::size_t needed = 10 + 4 * 3 * 5 * 4 * 2;
-  internal::write_bytes(file.voxels_at, std::string(needed, 'x'));
-  EXPECT_NO_THROW(check_size(file));
-  internal::write_bytes(file.voxels_at, std::string(needed - 1, 'x'));
-  EXPECT_THROW(check_size(file), DicomError);
+  constexpr std::size_t numbers = 4 * 3 * 5 * 2;
+  using Packing = VoxelFile::Packing;
+  // Two digits are a byte in hex. In ascii a number has at least a digit, and a space lies between two.
+  for (const auto& [packing, least] :
+       {std::pair{Packing::none, 4 * numbers}, {Packing::hex, 8 * numbers}, {Packing::ascii, 2 * numbers - 1}}) {
+    file.packing = packing;
+    internal::write_bytes(file.voxels_at, std::string(10 + least, 'x'));
+    EXPECT_NO_THROW(check_size(file)) << least;
+    internal::write_bytes(file.voxels_at, std::string(10 + least - 1, 'x'));
+    EXPECT_THROW(check_size(file), DicomError) << least;
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 
 #include "io/interchange/label_bytes.h"
@@ -86,6 +87,21 @@ TEST(WriteLabelMap, NiftiHasEachFieldOfTheStandard) {
     ASSERT_EQ(bytes.size(), at + image.inside.size());
     EXPECT_EQ(bytes.substr(at), voxels_in(image));
     EXPECT_EQ(inflated(nifti_bytes(image, ".nii.gz"), gzip_bits), bytes);
+  }
+}
+
+/// Turned by any angle about any axis: also where the quaternion's first number, which nobody writes, is below 0.
+TEST(WriteLabelMap, NiftiHasTheQuaternionOfEveryRotation) {
+  for (const Vec3& axis :
+       {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(1, -2, 3), Vec3(-3, 1, 2)}) {
+    for (int degrees = 10; degrees < 360; degrees += 20) {
+      const glm::dquat turn = glm::angleAxis(glm::radians(static_cast<double>(degrees)), glm::normalize(axis));
+      const auto in_lps = [&](const Vec3& ras) { return Vec3(-1, -1, 1) * (turn * ras); };
+      const LabelImage image = image_on(0.75 * in_lps({1, 0, 0}), 1.5 * in_lps({0, 1, 0}), 2.5 * in_lps({0, 0, 1}),
+                                        {10, -20, 30}, {5, 4, 3});
+      SCOPED_TRACE(::testing::Message() << degrees << " degrees about " << axis.x << ' ' << axis.y << ' ' << axis.z);
+      expect_places(rows_of_quaternion(nifti_bytes(image, ".nii")), image);
+    }
   }
 }
 

@@ -119,6 +119,22 @@ TEST(ContourFiles, AreReadInATimeThatGrowsWithTheirPoints) {
   EXPECT_LT(seconds_for(20000), 24 * seconds_for(2500));
 }
 
+/// Of three others the one in the middle counts, in whatever order they are listed.
+TEST(ContourFiles, APlaneAloneIsAsThickAsTheOthersUsuallyAre) {
+  std::vector<double> steps{2, 4, 12};
+  do {
+    for (const std::size_t place : {0U, 1U, 3U}) {
+      std::vector<std::vector<RoiContour>> rois;
+      for (const double step : steps) rois.push_back({{9, 0}, {9, step}, {9, 2 * step}});
+      rois.insert(rois.begin() + static_cast<std::ptrdiff_t>(place), std::vector<RoiContour>{{10, 4}});
+      const TestFolder folder;
+      const auto found = rois_in(rois, folder);
+      EXPECT_NEAR(measure(found.at(place)).volume_mm3, 4 * circle_area(10, 40), 1e-3)
+          << steps[0] << ' ' << steps[1] << ' ' << steps[2] << ", at " << place;
+    }
+  } while (std::ranges::next_permutation(steps).found);
+}
+
 TEST(ContourFiles, APlaneAloneIsAsThickAsTheFileOrTheScanSays) {
   const double area = circle_area(10, 40);
   const auto volume = [](const Structure& structure, const Geometry* scan = nullptr) {

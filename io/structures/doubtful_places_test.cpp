@@ -150,6 +150,9 @@ TEST(DoubtfulPlaces, WhatIsSpoiltIsListedAndNearlyNothingElse) {
         if (place.kind == DoubtKind::edge) {
           EXPECT_NEAR(place.mean_mm, off, 2.5) << "the way to the true edge, with its sign";
           EXPECT_EQ(place.mean_mm > 0, place.largest_mm > 0);
+        } else if (place.kind != DoubtKind::no_edge && is_off) {
+          EXPECT_EQ(place.mean_mm > 0, off > 0) << "a hole's edge would go outwards, an island's inwards";
+          EXPECT_EQ(place.largest_mm > 0, off > 0);
         }
       }
       EXPECT_EQ(is_listed, spoilt.least_mm > 0);

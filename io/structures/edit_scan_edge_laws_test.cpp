@@ -7,10 +7,13 @@
 #include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "io/quantile.h"
+#include "io/structures/edge_ways.h"
 #include "io/structures/edits.h"
 #include "io/structures/outline_parts.h"
 #include "io/structures/outline_places.h"
@@ -240,6 +243,70 @@ TEST(ScanEdgeLaws, WhereTheScanHasNoEdgeItStays) {
     }
   }
   EXPECT_GT(without, 200U);
+}
+
+/// A case and the ways of its places. Of wavy and of rough outlines.
+struct WaysOfCase {
+  const ScanEdgeCase* of = nullptr;
+  std::vector<internal::EdgeWay> places;  ///< within the radius
+};
+
+const std::vector<WaysOfCase>& ways_of_cases() {
+  static const std::vector<WaysOfCase> all = [] {
+    std::vector<WaysOfCase> made;
+    for (const ScanEdgeCase& one : scan_edge_cases()) {
+      if (!one.after || one.spoil % 2 == 0) continue;
+      const internal::EdgeWays ways(*one.before, one.edit, {*one.fields, one.scan->geometry}, 0);
+      WaysOfCase& here = made.emplace_back();
+      here.of = &one;
+      std::ranges::copy_if(ways.places(), std::back_inserter(here.places), [&](const internal::EdgeWay& place) {
+        return glm::distance(place.at.place_mm, one.edit.center_mm) < one.edit.radius_mm;
+      });
+    }
+    return made;
+  }();
+  return all;
+}
+
+/// A place that stays because its neighbors disagree has an edge.
+TEST(ScanEdgeLaws, OnlyPlacesThatStayWithoutAnEdgeAreToldAsSuch) {
+  std::size_t with_an_edge = 0;
+  for (const WaysOfCase& one : ways_of_cases()) {
+    std::size_t without = 0;
+    for (const internal::EdgeWay& place : one.places) {
+      if (!place.stays) continue;
+      ++(place.has_edge ? with_an_edge : without);
+    }
+    EXPECT_EQ(one.of->outcome.without_edge, without) << one.of->name;
+    EXPECT_EQ(one.of->outcome.points, one.places.size()) << one.of->name;
+  }
+  EXPECT_GT(with_an_edge, 0U);
+}
+
+/// The uncertainty of a place's neighbors counts, and not its own: a place without an edge has none.
+TEST(ScanEdgeLaws, AWayWithinTheUncertaintyOfTheEdgesAroundIsNone) {
+  constexpr double alike_mm = 1;
+  std::size_t within = 0, beyond_their_own = 0;
+  for (const WaysOfCase& one : ways_of_cases()) {
+    const double around_mm = 2 * std::clamp(one.of->edit.radius_mm / 8, 0.75, 2.0);  // two of their distances
+    for (const internal::EdgeWay& place : one.places) {
+      std::vector<double> mm, known_to_mm;
+      for (const internal::EdgeWay& other : one.places) {
+        if (!other.has_edge || !(glm::dot(place.at.inward, other.at.inward) > 0)) continue;
+        if (glm::distance(place.at.place_mm, other.at.place_mm) > around_mm) continue;
+        mm.push_back(other.edge_mm);
+        known_to_mm.push_back(other.known_to_mm);
+      }
+      const double middle = quantile(mm, 0.5);
+      const double way = place.has_edge && std::abs(place.edge_mm - middle) < alike_mm ? place.edge_mm : middle;
+      if (place.stays || std::abs(way) > quantile(known_to_mm, 0.5)) continue;
+      ++within;
+      beyond_their_own += std::abs(way) > place.known_to_mm ? 1 : 0;
+      EXPECT_EQ(place.mm, 0) << one.of->name;
+    }
+  }
+  EXPECT_GT(within, 100U);
+  EXPECT_GT(beyond_their_own, 0U);
 }
 
 TEST(ScanEdgeLaws, ItComesNearerToTheTruth) {

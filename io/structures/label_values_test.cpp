@@ -21,10 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How the header scales what is stored. A slope of 0 scales nothing.
+struct Scaling {
+  double slope = 0, offset = 0;
+};
+
 struct LabelValues : ::testing::Test {
   /// Voxels of 1 mm, of 32-bit floating-point numbers or integers. The folder holds this file alone.
   template <typename Number>
-  fs::path written_volume(const glm::ivec3& size, const std::function<double(const glm::ivec3&)>& value) {
+  fs::path written_volume(const glm::ivec3& size, const std::function<double(const glm::ivec3&)>& value,
+                          const Scaling& scaling = {}) {
     internal::Nifti header;
     header.sform({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,6 +38,7 @@ struct LabelValues : ::testing::Test {
     }
     const std::int16_t type = std::is_integral_v<Number> ? 8 : 16;
     header.put(70, type).put(72, std::int16_t{32});
+    header.put(112, static_cast<float>(scaling.slope)).put(116, static_cast<float>(scaling.offset));
     std::string bytes = header.bytes();
     for (int n = 0; n < size.x * size.y * size.z; ++n) {
       const glm::ivec3 at(n % size.x, n / size.x % size.y, n / size.x / size.y);
@@ -74,6 +81,20 @@ TEST_F(LabelValues, AreRoundedAndTheBackgroundIsWhatIsNoLabel) {
   const auto half = [](const glm::ivec3& at) { return 0.5 * two_boxes(at, 0); };
   const fs::path file = written_volume<float>(size, half);
   EXPECT_TRUE(find_structures(std::array{file.parent_path()}).structures.empty()) << "half of one is no label";
+}
+
+// nifti1.h: a value is scl_slope * stored + scl_inter, and what is stored where scl_slope is 0.
+TEST_F(LabelValues, AreScaledAsTheHeaderSays) {
+  for (const Scaling& scaling : {Scaling{1, 0}, {2, 0}, {0.5, 0}, {1, 5}, {0.25, -3}, {-1, 2}, {0, 0}, {0, 7}}) {
+    const auto stored = [&](const glm::ivec3& at) {
+      const double label = two_boxes(at, 0);
+      return scaling.slope == 0 ? label : (label - scaling.offset) / scaling.slope;
+    };
+    const std::string what = std::to_string(scaling.slope) + ' ' + std::to_string(scaling.offset);
+    expect_two_boxes(written_volume<float>({14, 9, 8}, stored, scaling), what);
+    if (std::abs(scaling.slope) == 2) continue;  // a half is no integer
+    expect_two_boxes(written_volume<std::int32_t>({14, 9, 8}, stored, scaling), what);
+  }
 }
 
 // A structure may be thin along any axis.

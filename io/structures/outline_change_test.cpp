@@ -46,6 +46,32 @@ TEST(OutlineChange, OfAnAddedAndARemovedBallIsThatOfTheFormula) {
   }
 }
 
+/// A part beside the ball, a rod on it and a hole drilled into it: the farthest place is the one that is farthest from
+/// the other outline, whether that is the old one or the new one.
+TEST(OutlineChange, TellsTheLargestMoveOfWhatComesAndOfWhatGoes) {
+  const auto ball = distance_of(made_labels([](const Vec3& at) { return glm::length(at) < 15; }, 32), {.reach_mm = 15});
+  struct Move {
+    Edit edit;
+    double largest_mm = 0, at_y = 0;
+  };
+  const std::vector<Move> moves{{AddEdit{{.path_mm = {{0, 22, 0}}, .radius_mm = 4}}, 11, 26},
+                                {AddEdit{{.path_mm = {{0, -25, 0}}, .radius_mm = 4}}, 14, -29},
+                                {AddEdit{{.path_mm = {{0, 10, 0}, {0, 24, 0}}, .radius_mm = 3}}, 12, 27},
+                                {RemoveEdit{{.path_mm = {{0, 18, 0}, {0, 7, 0}}, .radius_mm = 3}}, 11, 4}};
+  for (const Move& move : moves) {
+    const std::vector<Edit> edits{move.edit};
+    const auto changed = apply_edits(ball, edits).field;
+    for (const bool is_undone : {false, true}) {
+      const OutlineChange change = is_undone ? outline_change(*changed, *ball, *box_of_edits(edits))
+                                             : outline_change(*ball, *changed, *box_of_edits(edits));
+      SCOPED_TRACE(::testing::Message() << name_of(move.edit) << " up to " << move.at_y
+                                        << (is_undone ? ", undone" : ""));
+      EXPECT_NEAR(change.largest_mm, move.largest_mm, 0.5);
+      EXPECT_LT(glm::distance(change.largest_at_mm, Vec3(0, move.at_y, 0)), 2);
+    }
+  }
+}
+
 TEST(OutlineChange, OfNoEditAndOfATraceOfTheEdgeAsItIsIsNone) {
   EXPECT_FALSE(box_of_edits({}));
   const auto before = changed_ball();

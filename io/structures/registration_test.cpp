@@ -147,6 +147,22 @@ TEST(Registrations, OfOtherFramesAndOtherPatientsDoNotCount) {
   EXPECT_EQ(joined.why_not, "");
 }
 
+// An ID that is not said, as of what was made anonymous, contradicts none.
+TEST(Registrations, CountUnlessTwoPatientsAreNamed) {
+  struct Ids {
+    std::string of_registration, own;
+    bool counts = false;
+  };
+  for (const Ids& ids : {Ids{"7", "7", true}, {"7", "8", false}, {"7", "", true}, {"", "7", true}, {"", "", true}}) {
+    Registration one{
+        .file = "reg.dcm", .frame_of_reference_uid = "1.1", .patient_id = ids.of_registration, .parts = {}};
+    one.parts.push_back({.frame_of_reference_uid = "1.2", .motion = {}, .unfit = {}});
+    const Joined joined = join(std::array{one}, "1.2", "1.1", ids.own);
+    EXPECT_EQ(joined.motion.has_value(), ids.counts) << '"' << ids.of_registration << "\", \"" << ids.own << '"';
+    EXPECT_TRUE(joined.why_not.empty());
+  }
+}
+
 std::string refusal_to_register(const std::vector<std::string>& matrices) {
   const TestFolder folder;
   write(folder / "reg.dcm", "1.1", {{"1.2", matrices}});

@@ -1,6 +1,7 @@
 // `palpate structures compare` as a script uses it: label maps and DICOM, on different grids, against mathematics and
 // plastimatch.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +100,16 @@ TEST(CommandCompareStructures, TellsTheMarginFromTheSecondOne) {
   EXPECT_NEAR(compared(b + " " + a + " --to " + c)["margin_mm"].get<double>(), 4, 0.5);
   EXPECT_NEAR(compared(a + " " + b + " --to " + c)["margin_mm"].get<double>(), 24, 0.5);
   EXPECT_LT(compared(b + " " + a + " --to " + a)["margin_mm"].get<double>(), 0.01);
+  // In words the margin has the names of the two between which it is.
+  struct Case {
+    std::string first, second, margin_from;
+  };
+  for (const Case& one : {Case{a, b, "b"}, Case{b, a, "a"}}) {
+    const std::string arguments = one.first + " " + one.second + " --to " + c;
+    EXPECT_THAT(palpate("structures compare " + arguments, false).output,
+                HasSubstr(fmt::format("margin            {:.2f} mm from {} to c\n",
+                                      compared(arguments)["margin_mm"].get<double>(), one.margin_from)));
+  }
 }
 
 /// The same outline as SEG, RTSTRUCT and a label map, each by its segment's number or name.

@@ -145,6 +145,27 @@ TEST(CommandCorrect, SaysHowFarABallMovesTheEdge) {
   }
 }
 
+// A ball within the bone is 10 mm from any edge of the scan: at none of its places there is one.
+TEST(CommandCorrect, SaysAtHowManyPlacesTheScanHasNoEdge) {
+  const CutCore core;
+  const io::Series scan = io::find_series(std::array{phantom()}).series.at(0);
+  const std::string small = (core.folder / "small.nii.gz").string();
+  const auto ball = [](const io::Vec3& at) { return 5 - glm::length(at); };
+  write_label_map(sample_labels(io::testing::full_label(), scan.geometry, ball), small, io::testing::by_test);
+  for (const double radius_mm : {4.0, 12.0}) {
+    const Json edge{{"type", "scan_edge"}, {"center_mm", {5, 0, 0}}, {"radius_mm", radius_mm}, {"most_mm", 2}};
+    const Outcome outcome = core.correct(core.edits({edge}), "small.mha", "--force --structure " + small);
+    ASSERT_EQ(outcome.exit, 0) << outcome.output;
+    const std::string before = "edit 1: scan_edge: the edge moved by 0.00 mm at most; ";
+    const std::size_t found = outcome.output.find(before);
+    ASSERT_NE(found, std::string::npos) << outcome.output;
+    const int places = std::stoi(outcome.output.substr(found + before.size()));
+    EXPECT_GT(places, 5);
+    EXPECT_THAT(outcome.output, HasSubstr(before + std::to_string(places) + " places of it were looked at; at " +
+                                          std::to_string(places) + " the scan has no edge, and it stays\n"));
+  }
+}
+
 TEST(CommandCorrect, ContoursMakeANewOneInEveryForm) {
   const CutCore core;
   Json loops = Json::array();

@@ -15,8 +15,10 @@
 #include <vector>
 
 #include "device/simulated/simulated_stylus.h"
+#include "io/testing/file_bytes.h"
 #include "plugin/cli/ready_session.h"
 #include "plugin/recording/recording.h"
+#include "plugin/report/compare_strokes.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {
@@ -201,17 +203,17 @@ TEST(CommandSession, ReplayTellsWhereAndByHowMuchARecordingDiffers) {
 
 /// Against the same way with all its forces doubled every number of a comparison is known.
 TEST(CommandSession, ComparesWithAStrokeOfTwiceTheForce) {
-  const auto out = fresh_path("single"), file = fresh_path("double.h5");
+  const auto out = fresh_path("single"), file = fresh_path("double.h5"), picture = fresh_path("single-double.png");
   ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 4 -o " + out.string()).exit, 0);
   Recording recording = read_recording(out / "recording.h5");
   for (TickRecord& tick : recording.ticks) {
     for (double& newtons : tick.sent_n) newtons *= 2;
   }
   write_recording(recording, file);
-  const auto json = nlohmann::json::parse(
-      palpate("compare " + (out / "recording.h5").string() + " " + file.string() + " " + phantom().string() + " --json",
-              false)
-          .output);
+  const auto json = nlohmann::json::parse(palpate("compare " + (out / "recording.h5").string() + " " + file.string() +
+                                                      " " + phantom().string() + " --json -o " + picture.string(),
+                                                  false)
+                                              .output);
   const std::vector<double> along_mm = json["along_mm"], first_n = json["first_n"], second_n = json["second_n"];
   ASSERT_GT(along_mm.size(), 10U);
   std::size_t most = 0;
@@ -227,6 +229,16 @@ TEST(CommandSession, ComparesWithAStrokeOfTwiceTheForce) {
   EXPECT_NEAR(json["mean_difference_n"].get<double>(), sum_n / static_cast<double>(along_mm.size()), 1e-12);
   EXPECT_EQ(json["most_apart_mm"], 0);
   EXPECT_THAT(json["apart_mm"], ::testing::Each(0));
+  // In the picture each curve has its own file's name.
+  const Comparison compared{.along_mm = along_mm,
+                            .first_n = first_n,
+                            .second_n = second_n,
+                            .apart_mm = json["apart_mm"].get<std::vector<double>>()};
+  const auto wanted = fresh_path("wanted.png"), exchanged = fresh_path("exchanged.png");
+  write_png(charts_of(compared, "recording", file.stem().string()), wanted);
+  write_png(charts_of(compared, file.stem().string(), "recording"), exchanged);
+  EXPECT_TRUE(io::internal::bytes_of(picture) == io::internal::bytes_of(wanted));
+  EXPECT_FALSE(io::internal::bytes_of(picture) == io::internal::bytes_of(exchanged));
 }
 
 TEST(CommandSession, AnotherScanIsNotTheOneThatWasFelt) {

@@ -4,6 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "plugin/openigtlink/image.h"
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/testing/stepped_server.h"
@@ -274,6 +280,43 @@ TEST(OpenIgtServer, QueriesAreAnswered) {
   const auto unknown = client.next("RTS_TDATA", "");
   ASSERT_TRUE(unknown);
   EXPECT_EQ(unknown->content, Bytes{1});
+}
+
+/// A type's name has at most 12 bytes, so that a TRANSFORM is asked for by GET_TRANS. Of what is kept each is answered
+/// that is of the type, and of the device if one is named.
+TEST(OpenIgtServer, EachTypeThatIsKeptIsGotByItsQuery) {
+  SteppedServer stepped;
+  TestClient client(stepped.server.port());
+  wait_for_clients(stepped.server, 1);
+  const std::pair<const char*, const char*> kept[] = {
+      {"TRANSFORM", "Needle"}, {"TRANSFORM", "Probe"}, {"STATUS", "a"}, {"STRING", "a"}, {"POINT", "b"}};
+  for (const auto& [type, device] : kept) {
+    stepped.server.offer(std::string(type) + " " + device,
+                         wire_of({.type = type, .device = device, .content = Bytes(60)}), true);
+  }
+  const std::pair<const char*, const char*> queries[] = {
+      {"GET_TRANS", "TRANSFORM"}, {"GET_STATUS", "STATUS"}, {"GET_STRING", "STRING"}, {"GET_POINT", "POINT"}};
+  for (std::size_t n = 0; n < std::size(kept); ++n) ASSERT_TRUE(client.next());
+  for (const auto& [query, type] : queries) {
+    for (const char* const device : {"", "a", "b", "Needle", "Probe"}) {
+      SCOPED_TRACE(std::string(query) + " " + device);
+      client.send({.type = query, .device = device, .content = {}});
+      bool any = false;
+      for (const auto& one : kept) {
+        if (std::string_view(one.first) != type || (*device != 0 && std::string_view(one.second) != device)) continue;
+        any = true;
+        const auto answer = client.next();
+        ASSERT_TRUE(answer);
+        EXPECT_EQ(answer->type, one.first);
+        EXPECT_EQ(answer->device, one.second);
+      }
+      if (any) continue;
+      const auto status = client.next();
+      ASSERT_TRUE(status);
+      ASSERT_EQ(status->type, "STATUS");
+      EXPECT_EQ(status_of(status->content).text, std::string(query) + ": there is nothing to get");
+    }
+  }
 }
 
 TEST(OpenIgtServer, AddressesThatCannotBeListenedOnAreRefused) {

@@ -56,43 +56,45 @@ TEST(Chart, ALogarithmicAxisEndsAtTheNextRoundNumber) {
   }
 }
 
-/// A larger value stands higher: each disc is where its value is between the bottom of the axes and their top.
-TEST(Chart, LargerValuesStandHigher) {
+/// Where a curve is drawn whose values lie at a part of the y axis, and where it is due.
+struct DrawnCurve {
+  int first, last;  ///< its rows
+  double value_row, axis_row;
+};
+DrawnCurve drawn_at(double part, bool logarithmic, Curve curve) {
   constexpr int width = 400, height = 300;
   const ChartStyle style;
+  Canvas canvas(width, height, colors::white);
+  Chart chart;
+  chart.x = {.minimum = 0, .maximum = 2};
+  chart.y = {.logarithmic = logarithmic, .minimum = 1, .maximum = 100};
+  curve.y.assign(curve.x.size(), logarithmic ? std::pow(100, part) : 1 + 99 * part);
+  curve.color = {1, 0, 0};
+  chart.curves.push_back(std::move(curve));
+  draw(canvas, std::span(&chart, 1), style);
+  const auto [first, last] = rows_in_red(canvas);
   const double low_end = height - style.bottom, high_end = style.top;
+  return {first, last, low_end + part * (high_end - low_end), low_end};
+}
+
+/// A larger value stands higher: each disc is where its value is between the bottom of the axes and their top.
+TEST(Chart, LargerValuesStandHigher) {
   for (const bool logarithmic : {false, true}) {
     for (const double part : {0.1, 0.3, 0.5, 0.8, 0.95}) {
-      Canvas canvas(width, height, colors::white);
-      Chart chart;
-      chart.x = {.minimum = 0, .maximum = 2};
-      chart.y = {.logarithmic = logarithmic, .minimum = 1, .maximum = 100};
-      const double value = logarithmic ? std::pow(100, part) : 1 + 99 * part;
-      chart.curves.push_back({.x = {1}, .y = {value}, .color = {1, 0, 0}, .style = Curve::Style::points, .width = 4});
-      draw(canvas, std::span(&chart, 1), style);
-      const auto [first, last] = rows_in_red(canvas);
-      EXPECT_NEAR(0.5 * (first + last), low_end + part * (high_end - low_end), 2) << part;
+      const DrawnCurve disc =
+          drawn_at(part, logarithmic, {.x = {1}, .y = {}, .style = Curve::Style::points, .width = 4});
+      EXPECT_NEAR(0.5 * (disc.first + disc.last), disc.value_row, 2) << part;
     }
   }
 }
 
 /// A bar stands on the axis, and its top is where its value is.
 TEST(Chart, ABarStandsOnTheAxis) {
-  constexpr int width = 400, height = 300;
-  const ChartStyle style;
-  const double low_end = height - style.bottom, high_end = style.top;
   for (const bool logarithmic : {false, true}) {
     for (const double part : {0.1, 0.3, 0.5, 0.8, 0.95}) {
-      Canvas canvas(width, height, colors::white);
-      Chart chart;
-      chart.x = {.minimum = 0, .maximum = 2};
-      chart.y = {.logarithmic = logarithmic, .minimum = 1, .maximum = 100};
-      const double value = logarithmic ? std::pow(100, part) : 1 + 99 * part;
-      chart.curves.push_back({.x = {0.5, 1.5}, .y = {value, value}, .color = {1, 0, 0}, .style = Curve::Style::bars});
-      draw(canvas, std::span(&chart, 1), style);
-      const auto [first, last] = rows_in_red(canvas);
-      EXPECT_NEAR(first, low_end + part * (high_end - low_end), 2) << part;
-      EXPECT_NEAR(last + 1, low_end, 2) << part;
+      const DrawnCurve bars = drawn_at(part, logarithmic, {.x = {0.5, 1.5}, .y = {}, .style = Curve::Style::bars});
+      EXPECT_NEAR(bars.first, bars.value_row, 2) << part;
+      EXPECT_NEAR(bars.last + 1, bars.axis_row, 2) << part;
     }
   }
 }

@@ -3,14 +3,19 @@
 
 #include "plugin/report/session_pictures.h"
 
+#include <cairo.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
+#include <memory>
 
 #include "modes/testing/test_rig.h"
 #include "plugin/report/slice_picture.h"
+#include "plugin/testing/test_files.h"
 
 namespace palpate::plugin {
 namespace {
@@ -267,6 +272,44 @@ TEST(SessionPictures, AnArrowIsTheForceAtTheProxy) {
       EXPECT_NEAR(way_mm - before_mm, 1.04, 0.05);
     }
     before_mm = way_mm;
+  }
+}
+
+/// A picture's legend names the probe first: along the probe's way is the color of that line, and along the proxy's way
+/// the color of the second.
+TEST(SessionPictures, ASliceShowsProbeAndProxyWhereEachWas) {
+  using Rgb = std::array<int, 3>;
+  const auto folder = testing::fresh_path("slice");
+  std::filesystem::create_directories(folder);
+  const Summary summary{.tick_us = {.median = 1, .p99 = 2, .p999 = 3, .largest = 4}};
+  for (const double aside_m : {-0.005, 0.004}) {
+    Recording recording;
+    for (int n = 0; n <= 20; ++n) {
+      TickRecord tick;
+      tick.time_s = 1e-3 * n;
+      tick.probe_m[0] = tick.proxy_m[0] = 1e-3 * (n - 10);  // 20 mm to both sides of the middle, downwards
+      tick.proxy_m[2] = aside_m;                            // to the patient's left
+      recording.ticks.push_back(tick);
+    }
+    write_session_pictures(recording, summary, pictured_scene(), pictured_plan(), Rising(), "HU", folder);
+    const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(
+        cairo_image_surface_create_from_png((folder / "slice.png").c_str()), cairo_surface_destroy);
+    ASSERT_EQ(cairo_image_surface_get_width(image.get()), 960);
+    ASSERT_EQ(cairo_image_surface_get_height(image.get()), 760);
+    const auto at = [&](double x, double y) {
+      const unsigned char* const bgr = cairo_image_surface_get_data(image.get()) +
+                                       static_cast<int>(y) * cairo_image_surface_get_stride(image.get()) +
+                                       4 * static_cast<int>(x);
+      return Rgb{bgr[2], bgr[1], bgr[0]};
+    };
+    const Rgb probe = at(27, 53), proxy = at(27, 73);
+    ASSERT_NE(probe, proxy);
+    constexpr double pixels_per_mm = 960 / 88.0, middle_y = 34 + (760 - 34) / 2.0;
+    for (const double along_mm : {-17.0, -9.0, 4.0, 12.0, 18.0}) {
+      const double row = middle_y + pixels_per_mm * along_mm;
+      EXPECT_EQ(at(480, row), probe) << along_mm;
+      EXPECT_EQ(at(480 + pixels_per_mm * 2000 * aside_m, row), proxy) << along_mm;
+    }
   }
 }
 

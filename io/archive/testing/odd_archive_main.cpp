@@ -99,6 +99,10 @@ class Serving {
                            element(0x00000800, little(0, 2)) + element(0x00000900, little(0xFF00, 2))));
   }
 
+  /// A study of the behavior as-its-uid-says is 1.2.3 and four digits: images that come, objects of another study that
+  /// come, images that fail, and how many images it is said to have. Of 0 nothing is said.
+  static int digit(const std::string& study, std::size_t n) { return study.at(6 + 2 * n) - '0'; }
+
   /// The answer to a different request.
   void echo(Request request) {
     request.field = 0x30;
@@ -133,10 +137,14 @@ class Serving {
       return respond(socket_, request, 0);
     }
     const bool all = behavior_ == "endless-find";
-    const std::string match =
-        field(0x00080005, "CS", "ISO_IR 100") + field(0x00080052, "CS", "STUDY ") +
-        field(0x00100010, "PN", "M\xFCller^Zo\xEB ") + field(0x0020000D, "UI", even(study.empty() ? "1.2.3" : study)) +
-        field(0x0020000E, "UI", even("1.2.3.1")) + field(0x00201208, "IS", behavior_ == "grows" ? "9 " : "2 ");
+    std::string images = behavior_ == "grows" ? "9 " : "2 ";
+    if (behavior_ == "as-its-uid-says") {
+      images = digit(study, 3) == 0 ? std::string() : std::to_string(digit(study, 3)) + " ";
+    }
+    const std::string match = field(0x00080005, "CS", "ISO_IR 100") + field(0x00080052, "CS", "STUDY ") +
+                              field(0x00100010, "PN", "M\xFCller^Zo\xEB ") +
+                              field(0x0020000D, "UI", even(study.empty() ? "1.2.3" : study)) +
+                              field(0x0020000E, "UI", even("1.2.3.1")) + field(0x00201208, "IS", images);
     if (behavior_ == "huge-answer") {
       write_pdu(socket_, 4, find_pending(request));
       for (int n = 0; n < 1000; ++n) write_pdu(socket_, 4, pdv(request.context, false, false, std::string(16000, 'x')));
@@ -186,6 +194,12 @@ class Serving {
       return store(socket_, context, instance, image(instance, of, series)) == 0;
     };
     if (behavior_ == "echoes-at-get") return echo(request);
+    if (behavior_ == "as-its-uid-says") {
+      const int sent = digit(study, 0), unasked = digit(study, 1), failed = digit(study, 2);
+      for (int n = 0; n < sent; ++n) send(study + ".1" + std::to_string(n), study, study + ".1");
+      for (int n = 0; n < unasked; ++n) send(study + ".2" + std::to_string(n), "9.9.9", "9.9.9.1");
+      return respond(socket_, request, failed > 0 ? 0xB000 : 0, {}, sent, failed);
+    }
     if (behavior_ == "empty") return respond(socket_, request, 0);
     if (behavior_ == "all-fail") return respond(socket_, request, 0xB000, {}, 0, 2);
     if (behavior_ == "partly-unasked") {

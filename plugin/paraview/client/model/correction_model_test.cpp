@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -152,6 +154,23 @@ TEST_F(Correcting, AnotherScanEndsItWithoutAStep) {
   EXPECT_TRUE(model.stroke().empty());
   model.let_go();
   EXPECT_THAT(kept_edits(), IsEmpty());
+}
+
+/// A correction may end while the key that shows the outline before the last stroke is down. The next one shows its
+/// own outline.
+TEST_F(Correcting, EachCorrectionBeginsWithItsOutlineAsItIs) {
+  const std::pair<const char*, std::function<void()>> ends[] = {
+      {"its end", [this] { model.end(); }}, {"another scan", [this] { model.forget(); }}, {"the next one", [] {}}};
+  for (const auto& [what, end] : ends) {
+    SCOPED_TRACE(what);
+    model.begin(liver, {});
+    stroke({{0, 0, 0}, {0, 1, 0}});
+    model.show_before(true);
+    ASSERT_TRUE(model.shows_before());
+    end();
+    model.begin(liver, {});
+    EXPECT_FALSE(model.shows_before());
+  }
 }
 
 TEST_F(Correcting, ARadiusStaysWithinWhatAnEditMayHave) {

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -138,6 +141,32 @@ TEST_F(Correcting, TheStylusIsFreeWhileAKeyIsHeld) {
   model.set_freed(false);
   EXPECT_THAT(planes(), SizeIs(2)) << "also after what was drawn meanwhile";
   EXPECT_THAT(kept_edits(), SizeIs(1));
+}
+
+/// The view may turn to other slices while the key is held. The stylus is held in the last of them.
+TEST_F(Correcting, AfterTheKeyTheStylusIsHeldInTheSliceThatIsShown) {
+  model.begin(liver, {});
+  model.hold_in(HeldPlane{.point_mm = {1, 2, 30}, .normal = {0, 0, 1}});
+  const HeldPlane slices[] = {{.point_mm = {1, 2, 31}, .normal = {0, 0, 1}},
+                              {.point_mm = {1, 5, 31}, .normal = {0, 1, 0}},
+                              {.point_mm = {9, 5, 31}, .normal = {-1, 0, 0}}};
+  for (std::size_t turns = 1; turns <= 3; ++turns) {
+    SCOPED_TRACE(turns);
+    model.set_freed(true);
+    const HeldPlane* shown = nullptr;
+    for (std::size_t n = 0; n < turns; ++n) {
+      shown = &slices[(turns + n) % 3];
+      model.follow_slice(*shown);
+      EXPECT_THAT(planes(), IsEmpty()) << "it is free";
+    }
+    model.set_freed(false);
+    EXPECT_EQ(model.held_in(), *shown);
+    ASSERT_THAT(planes(), SizeIs(2));
+    for (const modes::Mode& plane : planes()) {
+      EXPECT_EQ(plane.position_mm, shown->point_mm);
+      EXPECT_EQ(std::abs(glm::dot(plane.direction, shown->normal)), 1);
+    }
+  }
 }
 
 TEST_F(Correcting, ThePlanesFollowTheSlice) {

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "modes/scene/scene_json.h"
 #include "plugin/session/scan_hash.h"
@@ -23,13 +25,18 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double tick_s = 0.01;
 
-/// 2 s in ticks of 10 ms. Each number of a tick tells which one it is.
-std::shared_ptr<const RecordedSession> two_seconds() {
+/// 2 s in ticks of 10 ms. Each number of a tick tells which one it is. Each scene is felt equally long.
+std::shared_ptr<const RecordedSession> two_seconds(const std::vector<modes::Scene>& scenes = {
+                                                       modes::load_scene("ct-skin-and-bone")}) {
   const io::Volume scan = testdata::scan(testdata::make_sphere(5), testdata::make_geometry({.size = glm::ivec3(16)}));
   Recording recording;
-  recording.scenes = {{.scene = modes::to_json(modes::load_scene("ct-skin-and-bone")), .scan_hash = hash_of(scan)}};
+  for (std::size_t n = 0; n < scenes.size(); ++n) {
+    recording.scenes.push_back(
+        {.epoch = static_cast<std::uint32_t>(n), .scene = modes::to_json(scenes[n]), .scan_hash = hash_of(scan)});
+  }
   for (int n = 0; n <= 200; ++n) {
     TickRecord tick;
+    tick.scene_epoch = static_cast<std::uint32_t>(static_cast<std::size_t>(n) * scenes.size() / 201);
     tick.index = static_cast<std::uint64_t>(n);
     tick.time_s = 3 + tick_s * n;
     tick.value = n;
@@ -83,6 +90,26 @@ TEST_F(PlaybackTest, EachPlaceShowsItsTick) {
     ASSERT_NE(look.scene, nullptr);
     EXPECT_EQ(look.scene->name, session->scene(0).name);
     EXPECT_EQ(look.tissue, n < 100 ? "soft tissue" : look.tissue);
+  }
+}
+
+/// A recording may have several scenes. Each place is named by the scene that was felt there.
+TEST_F(PlaybackTest, EachPlaceIsNamedByItsOwnScene) {
+  const modes::Scene usual = modes::load_scene("ct-skin-and-bone");
+  std::vector<modes::Scene> scenes(3, usual);
+  for (std::size_t n = 0; n < scenes.size(); ++n) {
+    scenes[n].name = "scene " + std::to_string(n);
+    scenes[n].tissues = {
+        {.name = "tissue " + std::to_string(n), .low = -1000, .high = 1000, .softness = 10, .color = {}}};
+  }
+  playback.set_session(two_seconds(scenes));
+  for (const int n : {0, 66, 67, 133, 134, 200, 70, 10}) {
+    playback.seek(tick_s * (n + 0.4));
+    const SessionStatus look = playback.look("HU");
+    const std::string number = std::to_string(n / 67);
+    ASSERT_NE(look.scene, nullptr);
+    EXPECT_EQ(look.scene->name, "scene " + number) << n;
+    EXPECT_EQ(look.tissue, "tissue " + number) << n;
   }
 }
 

@@ -60,6 +60,27 @@ TEST_F(ScanModelFollowed, AFrameIsHereBeforeTheViewsGoThere) {
   EXPECT_THAT(world.take_asked(), IsEmpty()) << "it is not read twice";
 }
 
+/// The filter of that moment: the scene may get another one between two frames.
+TEST_F(ScanModelFollowed, EachFrameIsReadThroughTheFilterThatIsFelt) {
+  io::Filter felt_through;
+  model.set_filter([&felt_through] { return felt_through; });
+  show("1", 5);
+  int frame = 0;
+  for (const char* const name : {"gaussian", "", "median", "bilateral"}) {
+    felt_through = {.type = *name == 0 ? nullptr : io::find_filter_type(name)};
+    world.filters.clear();
+    frame = (frame + 1) % 5;
+    model.go_to_frame(frame);  // from the panel
+    EXPECT_THAT(world.filters, ElementsAre(felt_through)) << name;
+    frame = (frame + 1) % 5;
+    world.time = frame;  // by ParaView
+    model.follow_time();
+    EXPECT_THAT(world.filters, ElementsAre(felt_through, felt_through)) << name;
+    world.frames_.back()(voxels(), {});
+    EXPECT_EQ(model.shown()->frame, frame);
+  }
+}
+
 TEST_F(ScanModelFollowed, TheLastFrameAskedForIsShown) {
   show("1", 5);
   model.go_to_frame(-1);

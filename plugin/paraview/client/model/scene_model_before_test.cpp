@@ -111,6 +111,18 @@ TEST_F(SceneModelBefore, UndoMeanwhileStays) {
   EXPECT_EQ(now(), 1.5);
 }
 
+/// Far more edits than are remembered: the scene before the last of them is always known.
+TEST_F(SceneModelBefore, AfterAnyNumberOfEditsItIsTheOneBeforeTheLast) {
+  for (int n = 0; n < 50; ++n) {
+    const double before = now(), after = 1 + n / 64.0;
+    model.edit(QStringLiteral("Force"), force(after));
+    model.show_before();
+    EXPECT_EQ(now(), before) << n;
+    model.show_now();
+    EXPECT_EQ(now(), after) << n;
+  }
+}
+
 /// A filter takes long, and with another mapping the hand would be elsewhere.
 TEST_F(SceneModelBefore, FilterAndMappingStay) {
   io::Filter filter;

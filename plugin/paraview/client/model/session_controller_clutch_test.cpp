@@ -182,6 +182,41 @@ TEST_F(ControlledSession, AClutchEndsWhenItsStepDoes) {
   }
 }
 
+/// The key is down again before the step of the first clutch is done: hand and patient stay apart until it is let go.
+TEST_F(ControlledSession, AClutchThatIsPressedAgainBeforeItEndsGoesOn) {
+  for (const bool refused : {false, true}) {
+    SCOPED_TRACE(refused);
+    connect_simulated();
+    ASSERT_TRUE(goes_to(outside));
+    session.feel();
+    ASSERT_TRUE(comes([this] { return last().feels; }));
+    std::function<void(const QString&)> done;
+    bool reads = true;
+    model.set_read([&](const modes::Scene&, auto then) {
+      if (reads) done = then;
+      return reads;
+    });
+    session.clutch();
+    ASSERT_TRUE(comes([this] { return !last().feels; }));
+    const glm::dvec3 stays = last().probe_mm;
+    session.unclutch(last().workspace.rotation);
+    ASSERT_TRUE(done);
+    session.clutch();
+    reads = false;
+    done(refused ? QStringLiteral("it cannot be read") : QString());
+    EXPECT_TRUE(session.is_clutched());
+    polls(5);
+    EXPECT_TRUE(session.is_clutched());
+    EXPECT_FALSE(last().feels);
+    EXPECT_EQ(last().probe_mm, stays);
+    session.unclutch(last().workspace.rotation);
+    EXPECT_FALSE(session.is_clutched());
+    EXPECT_TRUE(comes([this] { return last().feels; }));
+    model.set_read({});
+    session.disconnect_stylus();
+  }
+}
+
 TEST_F(ControlledSession, AnotherScanEndsTheClutch) {
   connect_simulated();
   ASSERT_TRUE(goes_to(outside));

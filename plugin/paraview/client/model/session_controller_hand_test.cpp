@@ -116,6 +116,35 @@ TEST_F(ControlledSession, TheHandIsMappedIntoTheScanThatIsFelt) {
   EXPECT_LT(glm::distance(last().workspace.center_mm, center), 100);
 }
 
+/// The keys move the hand from where the stylus is now, which is not where the hand was under the mapping before.
+TEST_F(ControlledSession, AfterAnotherMappingTheHandIsWhereTheStylusIs) {
+  connect_simulated();
+  const auto shift = [now = last().workspace](modes::Scene& scene) {
+    scene.workspace.center_mm = now.center_mm + glm::dvec3(0, 8, 0);
+    scene.workspace.scale = now.mm_per_m / 1e3;
+    scene.workspace.rotation = now.rotation;
+    scene.workspace.fit = false;
+  };
+  const std::pair<const char*, std::function<void()>> changes[] = {
+      {"an edit", [&] { model.edit(QStringLiteral("Shift"), shift); }},
+      {"its undo", [&] { model.undo(); }},
+      {"its redo", [&] { model.redo(); }}};
+  for (const auto& [what, change] : changes) {
+    SCOPED_TRACE(what);
+    ASSERT_TRUE(goes_to(outside));
+    EXPECT_EQ(session.hand_mm(), outside);
+    change();
+    ASSERT_TRUE(
+        comes([this] { return last().tick.scene_epoch == session.live().epoch() && last().tick.change_part == 1; }));
+    const glm::dvec3 stylus = last().probe_mm;
+    EXPECT_GT(glm::distance(stylus, outside), 5);
+    EXPECT_EQ(session.hand_mm(), stylus);
+    session.move_hand(session.hand_mm() + glm::dvec3(1, 0, 0));
+    polls(15);
+    EXPECT_LT(glm::distance(last().probe_mm, stylus), 3) << "a step of 1 mm, and the hand trembles";
+  }
+}
+
 /// The work that the force was taken for is named until the fault is cleared, and not with the next.
 TEST_F(ControlledSession, TheWorkThatHeldThePanelUpIsNamed) {
   session.set_clock([](double period_s) {

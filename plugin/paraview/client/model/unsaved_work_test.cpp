@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -177,6 +179,59 @@ TEST_F(Unsaving, MarksAreCountedAndWaitForTheirScan) {
   marks.edit(QStringLiteral("Rename"), [](Marks& now) { now.points[0].name = "edge"; });
   EXPECT_EQ(unsaved.of_program().marks, 4U) << "a mark with another name, and the distance from it";
   marks.forget();
+  EXPECT_FALSE(unsaved.of_program().any());
+}
+
+/// A distance or an angle is another one as soon as one of its marks is.
+TEST_F(Unsaving, ADistanceOrAnAngleIsSavedWithAllOfItsMarks) {
+  for (int n = 0; n < 4; ++n) mark(n * n);
+  marks.edit(QStringLiteral("Keep"), [](Marks& now) {
+    now.points[2].position_mm.y = 5;
+    now.distances = {{.from = 0, .to = 1}};
+    now.angles = {{.from = 0, .at = 1, .to = 2}};
+  });
+  unsaved.note_marks_saved("one", marks.marks());
+  ASSERT_EQ(unsaved.of_program().marks, 0U);
+  const std::size_t changed[] = {3, 3, 2, 1};  // the mark itself, the distance and the angle
+  for (std::size_t n = 0; n < std::size(changed); ++n) {
+    const auto move = [&](double by_mm) {
+      marks.edit(QStringLiteral("Move"), [&](Marks& now) { now.points[n].position_mm.z = by_mm; });
+    };
+    move(8);
+    EXPECT_EQ(unsaved.of_program().marks, changed[n]) << n;
+    move(0);
+    EXPECT_EQ(unsaved.of_program().marks, 0U) << n;
+  }
+  std::size_t more = 0;
+  for (const MarkedDistance& one : {MarkedDistance{.from = 0, .to = 2}, MarkedDistance{.from = 3, .to = 1}}) {
+    marks.edit(QStringLiteral("Measure"), [&](Marks& now) { now.distances.push_back(one); });
+    EXPECT_EQ(unsaved.of_program().marks, ++more);
+  }
+  for (const MarkedAngle& one : {MarkedAngle{.from = 3, .at = 1, .to = 2}, MarkedAngle{.from = 0, .at = 3, .to = 2},
+                                 MarkedAngle{.from = 0, .at = 1, .to = 3}}) {
+    marks.edit(QStringLiteral("Measure"), [&](Marks& now) { now.angles.push_back(one); });
+    EXPECT_EQ(unsaved.of_program().marks, ++more);
+  }
+}
+
+/// The user is warned at that margin, also where no mode reads the structure.
+TEST_F(Unsaving, AMarginIsWork) {
+  const auto set_margin = [this](std::optional<double> mm) {
+    scene.edit(QStringLiteral("Margin"), [mm](modes::Scene& now) {
+      now.structures = {{.name = "liver", .file = "/study/liver.dcm", .segment = "liver"}};
+      now.structures[0].margin_mm = mm;
+    });
+  };
+  set_margin(std::nullopt);
+  EXPECT_FALSE(unsaved.of_program().any()) << "it is named, and nothing else";
+  set_margin(4);
+  EXPECT_TRUE(unsaved.of_scan().scene);
+  EXPECT_TRUE(unsaved.of_program().scene);
+  unsaved.note_scene_saved();
+  EXPECT_FALSE(unsaved.of_program().any());
+  set_margin(5);
+  EXPECT_TRUE(unsaved.of_program().scene);
+  set_margin(4);
   EXPECT_FALSE(unsaved.of_program().any());
 }
 

@@ -6,14 +6,10 @@
 #include <pqObjectBuilder.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServer.h>
-#include <pqServerManagerModel.h>
-#include <pqUndoStack.h>
 #include <vtkPVRenderView.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
-#include <vtkSMTrace.h>
 #include <vtkSMViewLayoutProxy.h>
 
 #include <QCoreApplication>
@@ -22,39 +18,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "plugin/messages/messages.h"
+#include "plugin/paraview/client/views/clinical_views_making.h"
 #include "plugin/paraview/client/views/image_lattice.h"
 #include "plugin/paraview/client/views/new_views.h"
 #include "plugin/paraview/client/views/patient_volume.h"
 #include "plugin/paraview/client/views/slice_setup.h"
 
 namespace palpate::plugin {
-namespace {
-
-QString name_of(ViewKind kind) {
-  const auto translated = [](const char* text) { return QCoreApplication::translate("ClinicalViews", text); };
-  switch (kind) {
-    case ViewKind::axial:
-      return translated("Axial");
-    case ViewKind::sagittal:
-      return translated("Sagittal");
-    case ViewKind::coronal:
-      return translated("Coronal");
-    case ViewKind::volume:
-      break;
-  }
-  return translated("Volume");
-}
-
-constexpr struct {
-  Plane plane;
-  ViewKind kind;
-  int cell;
-} places[] = {{Plane::axial, ViewKind::axial, 3},
-              {Plane::sagittal, ViewKind::sagittal, 5},
-              {Plane::coronal, ViewKind::coronal, 4}};
-constexpr int volume_cell = 6;
-}  // namespace
 
 void ClinicalViews::refresh() {
   for (const auto& slice : slices_) {
@@ -135,23 +105,6 @@ void ClinicalViews::name_window() {
                              : QCoreApplication::translate("palpate::plugin::ScanSection", same->name);
 }
 
-/// Empty: the tab of the scan before, a fresh session's with its one empty view, or a new one where views of the user's
-/// own stand in it.
-vtkSMViewLayoutProxy& ClinicalViews::take_layout(pqServer& server) {
-  auto* const builder = pqApplicationCore::instance()->getObjectBuilder();
-  vtkSMViewLayoutProxy* layout = layout_ ? layout_.Get() : pqActiveObjects::instance().activeLayout();
-  if (layout && layout->GetViews().size() == 1 && !layout_) {
-    auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
-    if (old && old->getNumberOfVisibleRepresentations() == 0) builder->destroy(old);
-  }
-  if (!layout || layout->GetSession() != server.session() || !layout->GetViews().empty()) {
-    layout = &make_layout(server);
-  }
-  layout->Reset();
-  layout_ = layout;
-  return *layout;
-}
-
 void ClinicalViews::make_room() {
   auto* const old = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
   if (layout_ || !old || old->widget()->isVisible() || old->getNumberOfVisibleRepresentations() > 0) return;
@@ -160,20 +113,6 @@ void ClinicalViews::make_room() {
   pqApplicationCore::instance()->getObjectBuilder()->destroy(old);
   layout_ = layout;
 }
-
-/// The scan whose views are being made.
-struct ClinicalViews::Making {
-  QPointer<pqPipelineSource> source;
-  Shown shown;
-  ImageLattice lattice;
-  vtkWeakPointer<vtkSMViewLayoutProxy> layout;
-  bool has_layout = false;
-  QPointer<pqRenderView> view;  ///< made, and shows nothing yet
-
-  /// Under *Advanced* the user can close tabs and views, and delete the scan, between two steps.
-  bool is_there() const { return source && (!has_layout || layout); }
-  vtkSMSourceProxy& image() const { return *vtkSMSourceProxy::SafeDownCast(source->getProxy()); }
-};
 
 ClinicalViews::ClinicalViews()
     : turns_([this](const std::string& error) {
@@ -222,102 +161,6 @@ void ClinicalViews::stop_making() {
   turns_.clear();
   const bool was = std::exchange(making_, nullptr) != nullptr;
   if (was && making_changed_) making_changed_(false);
-}
-
-void ClinicalViews::add_step(const std::function<void(Making&)>& step) {
-  turns_.add([this, step] {
-    const auto making = making_;  // a server that is lost within the step ends it
-    if (!making->is_there()) throw Refusal(say("scan-left-the-pipeline"));
-    SCOPED_UNDO_EXCLUDE();  // undo is for what is edited
-    SM_SCOPED_TRACE(BlockTraceItems);
-    step(*making);
-  });
-}
-
-/// Asked after what may handle events.
-bool ClinicalViews::goes_on(const Making& making) const {
-  return making_.get() == &making && making.is_there();
-}
-
-void ClinicalViews::show(pqPipelineSource& source, Shown shown) {
-  close();
-  trace_shown(source);
-  making_ = std::make_shared<Making>();
-  making_->source = &source;
-  making_->shown = std::move(shown);
-  if (making_changed_) making_changed_(true);
-  add_step([this](Making& making) { begin_layout(making); });
-  for (std::size_t place = 0; place < std::size(places); ++place) {
-    add_step([this, place](Making& making) { make_slice_view(making, place); });
-    add_step([this, place](Making& making) { fill_slice_view(making, place); });
-  }
-  add_step([this](Making& making) { make_volume_view(making); });
-  add_step([this](Making& making) { fill_volume_view(making); });
-  add_step([this](Making& making) { finish(making); });
-}
-
-void ClinicalViews::begin_layout(Making& making) {
-  making.lattice = lattice_of(making.image());
-  making.layout = &take_layout(*making.source->getServer());
-  making.has_layout = true;
-  making.layout->SplitHorizontal(0, 0.5);
-  making.layout->SplitVertical(1, 0.5);
-  making.layout->SplitVertical(2, 0.5);
-  prepare(making.image(), making.lattice);
-  window_->window = windows_.front().window;
-  plugin::set_window(*window_->gray_map, window_->window);
-  name_window();
-}
-
-void ClinicalViews::make_slice_view(Making& making, std::size_t place) {
-  making.view = make_view(*making.source->getServer(), true);
-  if (!goes_on(making) || !making.view) return;
-  making.layout->AssignView(places[place].cell, making.view->getViewProxy());
-}
-
-void ClinicalViews::fill_slice_view(Making& making, std::size_t place) {
-  if (!making.view) return;
-  const auto& [plane, kind, cell] = places[place];
-  const ImageLattice& lattice = making.lattice;
-  vtkSMProxy& shown = show_as("Slice", making.image(), *making.view, lattice.array.c_str());
-  if (!goes_on(making) || !making.view) return;
-  const Sight sight = sight_of(plane, lattice.directions);
-  vtkSMPropertyHelper(&shown, "SliceMode").Set(slice_mode(sight));
-  vtkSMPropertyHelper(&shown, "LookupTable").Set(window_->gray_map);
-  vtkSMPropertyHelper(&shown, "ScalarOpacityFunction")
-      .Set(vtkSMPropertyHelper(window_->gray_map, "ScalarOpacityFunction").GetAsProxy());
-  shown.UpdateVTKObjects();
-  add_slice(lattice, plane, kind, *making.view, shown, lattice.dimensions[sight.index_axis] / 2, false);
-  making.view.clear();
-}
-
-void ClinicalViews::make_volume_view(Making& making) {
-  making.view = make_view(*making.source->getServer(), false);
-  if (!goes_on(making) || !making.view) return;
-  making.layout->AssignView(volume_cell, making.view->getViewProxy());
-}
-
-void ClinicalViews::fill_volume_view(Making& making) {
-  if (!making.view) return;
-  vtkSMProxy& volume = show_as("Volume", making.image(), *making.view, making.lattice.array.c_str());
-  if (!goes_on(making) || !making.view) return;
-  first_look_ = suited_look(making.lattice.values);
-  set_volume_look(volume, looks_.at(*first_look_));
-  look_from_the_front(*making.view, making.lattice.center());
-  add_volume(*making.view, *making.source);
-  making.view.clear();
-}
-
-void ClinicalViews::finish(Making& making) {
-  // Not before all are there: the next would have this one's first name again.
-  for (const auto& open : views_) {
-    if (open.view) open.view->rename(name_of(open.kind));
-  }
-  refresh();
-  if (enlarged_changed_) enlarged_changed_(false);
-  const Shown shown = making.shown;
-  stop_making();
-  turns_.add([shown] { shown({}); });
 }
 
 void ClinicalViews::prepare(vtkSMSourceProxy& image, const ImageLattice& lattice) {
@@ -400,8 +243,8 @@ void ClinicalViews::adopt(pqPipelineSource& source) {
     if (type != "Slice") continue;
     const int mode = vtkSMPropertyHelper(shown->getProxy(), "SliceMode").GetAsInt();
     const auto* const place = std::ranges::find_if(
-        places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions)) == mode; });
-    if (place == std::end(places)) continue;  // a state edited by hand
+        slice_places, [&](const auto& of) { return slice_mode(sight_of(of.plane, lattice.directions)) == mode; });
+    if (place == std::end(slice_places)) continue;  // a state edited by hand
     const bool taken = std::ranges::any_of(views_, [&](const OpenView& other) { return other.kind == place->kind; });
     if (taken) continue;
     // The state's own: one of that name may be there from before.

@@ -25,7 +25,8 @@ class MadeWorld : public ScanWorld {
     progress_ = std::move(progress);
   }
   void stop() override { ++stopped; }
-  void load_frame(const io::Series& /*series*/, int frame, const io::Filter& /*filter*/, Loaded loaded) override {
+  void load_frame(const io::Series& /*series*/, int frame, const io::Filter& filter, Loaded loaded) override {
+    filters.push_back(filter);
     asked.push_back("frame " + std::to_string(frame));
     frames_.push_back(std::move(loaded));
   }
@@ -48,8 +49,9 @@ class MadeWorld : public ScanWorld {
     asked.emplace_back("abandon");
     view = {};
   }
-  void fetch(const SeriesRef& of, std::optional<int> frame, const io::Filter& /*filter*/,
-             std::vector<std::string> places, Progress progress, Fetched fetched) override {
+  void fetch(const SeriesRef& of, std::optional<int> frame, const io::Filter& filter, std::vector<std::string> places,
+             Progress progress, Fetched fetched) override {
+    filters.push_back(filter);
     asked.push_back("fetch " + of.name + (frame ? " " + std::to_string(*frame) : ""));
     looked_in = std::move(places);
     fetched_.push_back(std::move(fetched));
@@ -75,6 +77,7 @@ class MadeWorld : public ScanWorld {
   int stopped = 0, frames_stopped = 0, fetching_stopped = 0;
   ViewFacts view;
   std::vector<std::string> asked, looked_in;
+  std::vector<io::Filter> filters;  // of what was to be read through one
   // All requests so far, the latest last; a test may also answer an old one.
   std::deque<Found> found_;
   std::deque<Loaded> loaded_, frames_;
