@@ -17,7 +17,6 @@ struct ServeOptions {
 };
 
 /// Functions that change the session itself. It must outlive them. A client's scene keeps the session's workspace.
-/// Another scan whose place under the hand is another one is felt without a force until the change is over.
 Changes changes_of(LiveSession& session, LoadScan load);
 
 /// The session must hold a stylus. Prints the address on stderr, and at the end the traffic.
