@@ -6,8 +6,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 
+#include "device/safety/on_device.h"
 #include "solver/text/message.h"
 
 namespace palpate::device {
@@ -41,6 +43,13 @@ struct Reading {
   glm::dquat orientation{1, 0, 0, 0};  ///< of the stylus, if the device senses it
 };
 
+/// The force on a device as its link knows it. What was asked for may be another one.
+struct ForceOnDevice {
+  OnDevice state = OnDevice::unknown;
+  double newtons = 0;  ///< its length; while the device takes none, or it is unknown, that of the last one it took
+  bool is_held_back = false;  ///< less is given than was asked for, as in the ramp after a zero; heat does not count
+};
+
 class Stylus {
  public:
   Stylus() = default;
@@ -63,6 +72,8 @@ class Stylus {
   virtual Text trouble() const { return {}; }
   /// N: the largest force that it gives now, which falls while its motors are warm. For any thread.
   virtual double allowed_force() const noexcept { return std::numeric_limits<double>::infinity(); }
+  /// None: what was written acts. For any thread; its parts may be of two exchanges.
+  virtual std::optional<ForceOnDevice> force_on_device() const noexcept { return {}; }
 };
 
 }  // namespace palpate::device

@@ -263,7 +263,7 @@ TEST(SeriesDetails, WhatIsSetApartHasAKind) {
   write(scout, folder / "scout");
   fs::copy_file(folder / "s1.dcm", folder / "z");
   std::map<std::string, std::string> found;
-  for (const SkippedFile& file : find_in(folder).skipped) found[file.file.filename().string()] = file.kind;
+  for (const SkippedFile& file : find_in(folder).skipped) found[file.path.filename().string()] = file.kind;
   EXPECT_EQ(found, expected);
 }
 

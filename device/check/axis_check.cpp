@@ -79,10 +79,16 @@ AxisCheck check_axes(Stylus& stylus, const AxisHand& hand, const std::function<d
                      const AxisCheckSettings& settings) {
   AxisCheck check;
   Pusher pusher(stylus, next, settings.force);
-  if (stylus.state() == State::homing) hand.home();
-  for (double waited = 0; stylus.state() == State::homing && waited < settings.homing_time; waited += 0.1) {
+  const auto is_homing = [&] { return stylus.state() == State::homing; };
+  double waited = 0;
+  const auto wait = [&] {
     pusher.run(Vec3(0), 0.1);
-  }
+    waited += 0.1;
+  };
+  // One that has its home says so with its first pose, a moment after it was opened.
+  if (is_homing()) wait();
+  if (is_homing()) hand.home();
+  while (is_homing() && waited < settings.homing_time) wait();
   check.ended = !can_push(stylus.state());
   for (int axis = 0; axis < 3 && !check.ended && check.fault == Fault::none; ++axis) {
     const auto at = static_cast<std::size_t>(axis);

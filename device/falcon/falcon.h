@@ -23,7 +23,7 @@ struct FalconSettings {
   std::string firmware_file;  ///< uploaded if the Falcon has none yet
   FalconGeometry geometry;
   /// Motor command per N m: libnifalcon's number, never calibrated. With it the largest command is 16.6 N on z, but the
-  /// vendor says 9 N; so a force may be half as strong as commanded.
+  /// vendor says 9 N; so a force may be half as strong as commanded. From 4000 to 25000.
   double motor_gain = 10000;
   double maximum_force = falcon_force;  ///< N
   double stiffness_limit = 1000;        ///< N/m

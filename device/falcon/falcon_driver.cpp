@@ -99,6 +99,10 @@ std::size_t FalconProtocol::step(const Vec3& force, double now, std::span<std::u
   return bytes.size();
 }
 
+Text wrong_gain(const FalconSettings& settings) {
+  return wrong_calibration("motor_gain", settings.motor_gain, FalconSettings().motor_gain);
+}
+
 Specification falcon_specification(const FalconSettings& settings) {
   Specification specification;
   specification.name = "Novint Falcon";
@@ -113,6 +117,7 @@ Specification falcon_specification(const FalconSettings& settings) {
 std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
                                            const LinkStylusOptions& options) {
   check_limits("Novint Falcon", settings, {.force_n = falcon_force});
+  if (const Text wrong = wrong_gain(settings); !wrong.empty()) throw Refusal(at_place("Novint Falcon", wrong));
   return std::make_unique<LinkStylus>(falcon_specification(settings), std::make_unique<FalconProtocol>(settings),
                                       std::move(make_link), options);
 }

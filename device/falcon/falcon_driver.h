@@ -19,6 +19,9 @@ constexpr std::uint16_t ftdi_purge_received = 1;
 
 Specification falcon_specification(const FalconSettings& settings);
 
+/// A message about a motor gain that no Falcon has; empty if it may be right.
+Text wrong_gain(const FalconSettings& settings);
+
 /// The same stylus as make_falcon()'s, on any link.
 std::unique_ptr<LinkStylus> make_falcon_on(const FalconSettings& settings, LinkStylus::LinkMaker make_link,
                                            const LinkStylusOptions& options);

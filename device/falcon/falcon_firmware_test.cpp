@@ -115,7 +115,8 @@ TEST(FalconSettings, WrongOnesAreRefusedByName) {
     }
     return {};
   };
-  EXPECT_THAT(refusal(R"({"motor_gain": 0})"), ::testing::HasSubstr("the motor gain must be above zero"));
+  EXPECT_THAT(refusal(R"({"motor_gain": 0})"),
+              ::testing::HasSubstr("'motor_gain' is 0, but lies between 4000 and 25000"));
   EXPECT_THAT(refusal(R"({"maximum_force": 13})"), ::testing::HasSubstr("the largest force lies between 0 and 8 N"));
   EXPECT_EQ(refusal(R"({"motor_gain": 9000, "maximum_force": 4})"), "");
 }

@@ -17,7 +17,7 @@ FalconSettings read(SettingsReader& reader) {
   take_common(reader, settings, {.force_n = falcon_force});
   reader.take("firmware_file", settings.firmware_file);
   reader.take("motor_gain", settings.motor_gain);
-  if (!(settings.motor_gain > 0)) throw Refusal(say("motor-gain-must-be-above-zero"));
+  if (const Text wrong = wrong_gain(settings); !wrong.empty()) throw Refusal(wrong);
   return settings;
 }
 

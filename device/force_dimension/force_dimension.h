@@ -29,7 +29,8 @@ ForceDimensionSettings read_force_dimension(const std::string& json_file);
 /// has another version, or the arm has no home and may not move.
 std::unique_ptr<Stylus> make_force_dimension(const ForceDimensionSettings& settings = {});
 
-/// Opens and closes each device that the library finds. Never throws; without the library there are none.
+/// Opens and closes each device that the library finds. While this process connects, holds or disconnects one, none is
+/// opened. Never throws; without the library there are none. For any thread.
 std::vector<FoundDevice> find_force_dimension();
 
 }  // namespace palpate::device

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "device/force_dimension/force_dimension.h"
 #include "device/testing/force_dimension_fixture.h"
@@ -104,6 +109,98 @@ TEST_F(ForceDimensionClosing, OneThatIsHeldIsNotOpenedByASearch) {
   EXPECT_TRUE(found[0].accessible);
   driver->disconnect();
   EXPECT_EQ(find_force_dimension().at(0).note, "");
+}
+
+/// Looking for devices in another thread happens at any time: while one is opened, moves to its home, is stopped and is
+/// closed. However the connection ends, the search opens none, waits for nothing, and says that one is held.
+TEST_F(ForceDimensionClosing, NoSearchOpensOneThatIsBeingConnectedOrClosed) {
+  static FakeDrd* fake;
+  static std::set<std::string> calls;
+  static std::vector<std::string> told;
+  static bool looks;
+  fake = drd;
+  const struct {
+    int homed, homing_fails, failing, devices;
+    std::set<std::string> calls;
+  } cases[] = {{1, 0, 0, 1, {"drdOpenID", "drdStop", "dhdStop", "drdClose"}},
+               {0, 0, 0, 1, {"drdOpenID", "drdAutoInit", "drdStop", "dhdStop", "drdClose"}},
+               {0, 1, 0, 1, {"drdOpenID", "drdAutoInit", "dhdStop", "drdClose"}},
+               {1, 0, 1, 1, {"drdOpenID", "drdStop", "dhdStop", "drdClose"}},
+               {1, 0, 0, 3, {"drdOpenID", "drdClose"}}};
+  for (const auto& one : cases) {
+    *drd = FakeDrd{};
+    drd->homed = one.homed;
+    drd->homing_fails = one.homing_fails;
+    drd->failing = one.failing;
+    drd->devices = one.devices;
+    calls.clear();
+    told.clear();
+    looks = false;
+    set_hook([](const char* call) {
+      if (looks) return;
+      looks = true;
+      calls.insert(call);
+      const int opened = fake->opened, closed = fake->closed;
+      for (const FoundDevice& device : find_force_dimension()) told.push_back(device.note);
+      EXPECT_EQ(fake->opened, opened) << call;
+      EXPECT_EQ(fake->closed, closed) << call;
+      looks = false;
+    });
+    const std::string why = refusal([] { connected({.may_home = true}); });
+    set_hook(nullptr);
+    EXPECT_EQ(why != "", one.homing_fails != 0 || one.failing != 0 || one.devices > 1) << why;
+    EXPECT_EQ(calls, one.calls);
+    EXPECT_GE(told.size(), calls.size());
+    for (const std::string& note : told) EXPECT_EQ(note, "held by this session");
+    EXPECT_EQ(drd->opened, one.devices);
+    EXPECT_EQ(drd->closed, one.devices);
+    drd->failing = 0;
+    EXPECT_EQ(find_force_dimension().size(), static_cast<std::size_t>(one.devices));
+    EXPECT_EQ(drd->opened, 2 * one.devices) << "none is held any more";
+  }
+}
+
+/// A library that is not there holds nothing.
+TEST_F(ForceDimensionClosing, WhatCannotBeConnectedKeepsNoSearchAway) {
+  setenv("PALPATE_LIBDRD", "/absent/libdrd.so", 1);
+  ForceDimensionDriver driver({}, {&now, &pass});
+  EXPECT_NE(refusal([&] { driver.connect(); }), "");
+  setenv("PALPATE_LIBDRD", PALPATE_FAKE_LIBDRD, 1);
+  EXPECT_EQ(find_force_dimension().at(0).note, "");
+}
+
+/// Of two, one that is closed leaves the other held.
+TEST_F(ForceDimensionClosing, EachOfTwoIsHeldByItself) {
+  drd->devices = 2;
+  auto first = connected({.address = "1234"}), second = connected({.address = "1235"});
+  first->disconnect();
+  EXPECT_EQ(find_force_dimension().at(0).note, "held by this session");
+  second->disconnect();
+  EXPECT_EQ(find_force_dimension().size(), 2U);
+}
+
+/// A search that runs has a device open: connecting waits until that is closed.
+TEST_F(ForceDimensionClosing, ConnectingWaitsForASearchThatRuns) {
+  static FakeDrd* fake;
+  static std::thread connecting;
+  static int open_then;
+  fake = drd;
+  open_then = -1;
+  set_hook([](const char* call) {
+    if (std::strcmp(call, "drdOpenID") != 0) return;
+    if (connecting.joinable()) {
+      if (open_then < 0) open_then = fake->opened - fake->closed;
+      return;
+    }
+    connecting = std::thread([] { connected(); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // in which it would have opened the device
+  });
+  EXPECT_EQ(find_force_dimension().size(), 1U);
+  connecting.join();
+  set_hook(nullptr);
+  EXPECT_EQ(open_then, 1) << "its own alone";
+  EXPECT_EQ(drd->opened, 2);
+  EXPECT_EQ(drd->closed, 2);
 }
 
 /// Connected anew: at rest, no fault, not lost; poses are counted on.

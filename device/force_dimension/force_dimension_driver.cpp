@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -50,8 +50,23 @@ constexpr std::array extents{
 constexpr const char* own_watchdog = "30 ms, in its firmware";
 constexpr const char* no_watchdog = "none of its own: without palpate-guardian, switch it off";
 
-/// Looking for devices opens and closes them, which must not happen to one that is held.
-std::atomic<bool> is_held{false};
+// A search opens and closes devices, in a thread of its own. That must not happen to one that is being connected, moves
+// to its home, is held or is being disconnected. A search has the mutex as long as it runs. A driver has it only for a
+// moment: while an arm moves, a search does not wait, but says that the device is held.
+std::mutex searching;
+int holders = 0;  // only with the mutex
+
+/// Waits for the end of a search. There is none until the last copy of the result is gone.
+std::shared_ptr<void> keep_searches_away() {
+  {
+    const std::lock_guard lock(searching);
+    ++holders;
+  }
+  return {nullptr, [](void*) {
+            const std::lock_guard lock(searching);
+            --holders;
+          }};
+}
 
 double half_extent_of(int type) {
   const auto found = std::find_if(extents.begin(), extents.end(), [&](const Extent& one) { return one.type == type; });
@@ -120,8 +135,7 @@ void ForceDimensionDriver::bring_up() {
 }
 
 void ForceDimensionDriver::connect() {
-  drd_ = std::make_unique<DrdLibrary>();
-  choose();
+  no_search_ = keep_searches_away();
   const std::uint64_t news = status_.news;
   status_ = {};
   status_.news = news;
@@ -129,6 +143,8 @@ void ForceDimensionDriver::connect() {
   pose_errors_ = asked_ = 0;
   lost_ = false;
   try {
+    drd_ = std::make_unique<DrdLibrary>();
+    choose();
     bring_up();
   } catch (...) {
     disconnect();
@@ -137,15 +153,15 @@ void ForceDimensionDriver::connect() {
   const char* const name = drd_->get_system_name(id_);
   name_ = "Force Dimension " + std::string(name != nullptr ? name : "");
   next_ = now();
-  is_held = true;
 }
 
 void ForceDimensionDriver::disconnect() noexcept {
-  if (!drd_ || id_ < 0) return;
-  is_held = false;
-  drd_->dhd_stop(id_);
-  drd_->close(id_);
-  id_ = -1;
+  if (drd_ && id_ >= 0) {
+    drd_->dhd_stop(id_);
+    drd_->close(id_);
+    id_ = -1;
+  }
+  no_search_.reset();
 }
 
 double ForceDimensionDriver::now() noexcept {
@@ -252,8 +268,9 @@ bool stop_force_dimension(const std::string& address) {
 }
 
 std::vector<FoundDevice> find_force_dimension() {
+  const std::lock_guard lock(searching);
   std::vector<FoundDevice> found;
-  if (is_held) return {{"force_dimension", "Force Dimension", "", true, "held by this session"}};
+  if (holders > 0) return {{"force_dimension", "Force Dimension", "", true, "held by this session"}};
   try {
     const DrdLibrary drd;
     const int count = drd.get_device_count();

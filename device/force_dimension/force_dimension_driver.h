@@ -42,6 +42,7 @@ class ForceDimensionDriver final : public Driver {
   ForceDimensionSettings settings_;
   DriverClock clock_;
   std::unique_ptr<DrdLibrary> drd_;
+  std::shared_ptr<void> no_search_;  // none opens the device while this is held
   char id_ = -1;
   bool has_wrist_ = false;
   double maximum_force_ = 0;

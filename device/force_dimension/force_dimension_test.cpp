@@ -188,6 +188,31 @@ TEST_F(ForceDimension, ForcesThatAreRefusedForLongAreAFault) {
   EXPECT_EQ(drd->force[2], 0) << "a zero, as soon as it is taken";
 }
 
+/// A model without a watchdog holds its last force. Poses that fail for ten milliseconds are a device that is lost, but
+/// its forces are still taken: it gets a zero, in any direction that it pushed, and as soon as it takes one.
+TEST_F(ForceDimension, OneWhosePosesFailIsGivenAZero) {
+  for (const bool takes_forces : {true, false}) {
+    for (const Vec3& force : {Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0.6, 0, -0.8)}) {
+      *drd = FakeDrd{};
+      drd->has_watchdog = 0;
+      const auto stylus = unthreaded();
+      stylus->open();
+      push(*stylus, force, 300);
+      ASSERT_TRUE(is_pushing());
+      std::strcpy(drd->failing_call, "dhdGetPosition");
+      drd->failing = takes_forces ? 0 : 1;
+      push(*stylus, force, 45);
+      EXPECT_EQ(stylus->fault(), LinkFault::unplugged);
+      EXPECT_EQ(is_pushing(), !takes_forces);
+      drd->failing = 0;
+      push(*stylus, force, 1);
+      EXPECT_FALSE(is_pushing());
+      for (const double newtons : drd->force) EXPECT_EQ(newtons, 0);
+      EXPECT_EQ(stylus->fault(), LinkFault::unplugged);
+    }
+  }
+}
+
 TEST_F(ForceDimension, TheWristTurnsTheStylus) {
   drd->has_wrist = 1;
   const auto stylus = unthreaded();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -219,7 +220,7 @@ void HaplyProtocol::connect(Link& link) {
     vector_key_ = is_old ? "values" : "vector";
     hears_events_ = service->hears_events();
   }
-  switched_key_ = on_trial_ = resumes_ = false;
+  switched_key_ = on_trial_ = resumes_ = had_home_ = false;
   unheeded_ = foreign_ = 0;
   sent_forces_ = {};
   acting_.reset();
@@ -300,7 +301,11 @@ void HaplyProtocol::receive(std::span<const std::uint8_t> packet, double now) no
   };
   keep("calibrated", device_.calibrated);
   keep("ready", device_.ready);
+  // Calibrated anew it may have another frame under the same hand: the user opens it again. That it is not ready for a
+  // moment, because it was asked late, changes nothing of that.
+  if (had_home_ && !device_.calibrated) return fail(LinkFault::unhomed);
   status_.state = device_.calibrated && device_.ready ? State::idle : State::homing;
+  had_home_ = had_home_ || status_.state == State::idle;
   const Json* const position = at(*arm, "state", "cursor_position");
   if (position == nullptr) return;
   const Vec3 place = to_device_frame(vector_of(*position));
@@ -357,6 +362,7 @@ std::size_t HaplyProtocol::step(const Vec3& force, double now, std::span<std::ui
   text.add(",\"z\":").add(sent.z).add("}}}}]}");
   exchange_.sent(now);
   status_.withheld = !may_push;
+  status_.most_force = on_trial_ ? most : std::numeric_limits<double>::infinity();
   resumes_ = false;
   return text.size();
 }

@@ -78,6 +78,7 @@ class HaplyProtocol final : public Protocol {
   HaplySettings settings_;
   ProtocolStatus status_;
   HaplyDevice device_;
+  bool had_home_ = false;              // since it was connected
   bool has_grip_ = false;              // a VerseGrip, which reports its orientation
   const char* vector_key_ = "vector";  // of 3.5; 3.1 says "values"
   bool switched_key_ = false;

@@ -201,6 +201,50 @@ TEST(HaplySafety, AnArmThatIsNotCalibratedIsNotPushed) {
   }
 }
 
+/// Once it was pushed with, an arm that is not calibrated has lost its home, however soon it is calibrated anew and
+/// whatever it told of being ready meanwhile: its frame may be another one. An arm that is only not ready goes on.
+TEST(HaplySafety, AnArmThatLosesItsCalibrationIsNotPushedAgainUntilItIsOpened) {
+  const Vec3 force(0, 1, 0);
+  for (const bool loses_calibration : {true, false}) {
+    for (const bool is_ready : {true, false}) {
+      for (const double lost_s : {0.002, 0.05, 0.5}) {
+        HeldHaply one;
+        one.open_and_push(force);
+        one.service.ready = false;
+        one.run(0.002, force);
+        one.service.ready = is_ready;
+        one.service.calibrated = !loses_calibration;
+        one.run(lost_s, force);
+        one.service.ready = one.service.calibrated = true;
+        one.run(0.5, force);
+        EXPECT_EQ(one.stylus->fault(), loses_calibration ? LinkFault::unhomed : LinkFault::none) << lost_s;
+        EXPECT_NEAR(glm::length(one.acted), loses_calibration ? 0 : 1, 1e-4) << lost_s;
+        if (!loses_calibration) continue;
+        one.stylus->open();
+        one.run(0.5, force);
+        EXPECT_EQ(one.stylus->fault(), LinkFault::none);
+        EXPECT_NEAR(glm::length(one.acted), 1, 1e-4) << "opened anew";
+      }
+    }
+  }
+}
+
+/// Opened anew, one that is still not calibrated has lost nothing: it waits for its home.
+TEST(HaplySafety, OpenedAnewAnArmWaitsForItsCalibration) {
+  HeldHaply one;
+  one.open_and_push(Vec3(0, 1, 0));
+  one.service.calibrated = false;
+  one.run(0.05, Vec3(0, 1, 0));
+  ASSERT_EQ(one.stylus->fault(), LinkFault::unhomed);
+  one.stylus->open();
+  one.run(0.1, Vec3(0, 1, 0));
+  EXPECT_EQ(one.stylus->state(), State::homing);
+  EXPECT_EQ(one.acted, Vec3(0));
+  one.service.calibrated = true;
+  one.run(0.5, Vec3(0, 1, 0));
+  EXPECT_NEAR(glm::length(one.acted), 1, 1e-4);
+}
+
 /// Over the service's second socket; one that is not there leaves the first as it is, and it is said.
 TEST(HaplySafety, ItsBrakeIsHeardOverItsSocket) {
   HaplyServer server;

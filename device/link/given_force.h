@@ -32,6 +32,8 @@ class GivenForce {
   double untaken_for(double now) const noexcept { return now - taken_time_; }
   /// N
   const Vec3& given() const noexcept { return given_; }
+  /// Whether less is given than was requested: a zero was inserted, or the ramp after it has not ended.
+  bool is_held_back() const noexcept { return gain_ < 1; }
 
  private:
   void restart() noexcept;

@@ -115,11 +115,15 @@ void LinkStylus::open() {
   load_ = {};
   loss_told_ = false;
   given_.start(opened_);
+  taken_force_ = 0;
+  told_force_.store(0, std::memory_order_relaxed);
+  tell_force();
   force_.store(Vec3(0));
   wanted_ = force_.load();
   reading_.store({});
+  has_pose_ = false;
   fault_.store(LinkFault::none, std::memory_order_relaxed);
-  state_.store(driver_->status().state, std::memory_order_relaxed);
+  state_.store(told_state(), std::memory_order_release);
   if (!options_.threaded) return;
   stop_.store(false, std::memory_order_relaxed);
   thread_ = std::thread([this] { run(); });
@@ -192,15 +196,19 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
   if (driver_->lost()) {
     fail(LinkFault::unplugged);
     given_.doubt();
+    tell_force();
     // After this one there is no beat: a guardian that sees a force stand still takes it away when the device is back.
     if (guardian_ && !loss_told_) guardian_->beat(given_.on_device());
     loss_told_ = true;
+    // A device whose poses fail may still take forces, and hold its last one. One that is gone refuses the zero.
+    if (may_push_on()) driver_->give(Vec3(0));
     return;
   }
   judge_clocks(now);  // before the device: what this process slept through is not its fault
   if (status.news != news_) {
     news_ = status.news;
     news_time_ = now;
+    has_pose_ = true;
     reading_.store(
         {now - opened_, options_.signs.position * status.position, status.buttons, true, status.orientation});
   }
@@ -215,7 +223,13 @@ void LinkStylus::exchange(double timeout, bool closing) noexcept {
 
   give(now, closing);
   exchange_time_ = now;
-  if (fault() == LinkFault::none) state_.store(driver_->status().state, std::memory_order_relaxed);
+  if (fault() == LinkFault::none) state_.store(told_state(), std::memory_order_release);
+}
+
+State LinkStylus::told_state() const noexcept {
+  // A driver may know its home, and so be idle, before a pose has come: nobody knows yet where the hand is.
+  const State state = driver_->status().state;
+  return state == State::idle && !has_pose_ ? State::homing : state;
 }
 
 bool LinkStylus::withholds(double now, bool closing) const noexcept {
@@ -237,8 +251,22 @@ void LinkStylus::give(double now, bool closing) noexcept {
   // Before the force is given: a program that is stopped in between is one that pushes.
   const OnDevice on_device = given_.while_giving(force, news);
   if (guardian_) guardian_->beat(on_device);
-  given_.answered(driver_->give(options_.signs.force * force), force, news, now);
+  const ForceAnswer answer = driver_->give(options_.signs.force * force);
+  given_.answered(answer, force, news, now);
+  // A device that takes nothing may have its last force still, however often it was offered a zero.
+  if (answer == ForceAnswer::taken || answer == ForceAnswer::withheld) {
+    taken_force_ = std::min(glm::length(given_.given()), driver_->status().most_force);
+  }
+  tell_force();
   if (specification_.force_axes > 0 && takes_nothing(now)) fail(LinkFault::forces_refused);
+}
+
+void LinkStylus::tell_force() noexcept {
+  const OnDevice on_device = may_push_on() ? given_.on_device() : OnDevice::zero_taken;
+  told_on_device_.store(on_device, std::memory_order_relaxed);
+  if (on_device != OnDevice::unknown) told_force_.store(taken_force_, std::memory_order_relaxed);
+  const bool is_on_trial = glm::length(given_.given()) > driver_->status().most_force;
+  is_held_back_.store(given_.is_held_back() || is_on_trial, std::memory_order_relaxed);
 }
 
 bool LinkStylus::takes_nothing(double now) const noexcept {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "device/axis_signs.h"
@@ -51,11 +52,16 @@ class LinkStylus final : public Stylus {
   void close() noexcept override;
   Reading read() noexcept override;
   void write_force(const Vec3& force) noexcept override;
-  State state() const noexcept override { return state_.load(std::memory_order_relaxed); }
+  /// Homing until the first pose after open(). If it is idle, read() has a pose of this opening from then on.
+  State state() const noexcept override { return state_.load(std::memory_order_acquire); }
 
   Text trouble() const override { return advice_for(fault()); }
 
   double allowed_force() const noexcept override { return allowed_force_.load(std::memory_order_relaxed); }
+  std::optional<ForceOnDevice> force_on_device() const noexcept override {
+    return ForceOnDevice{told_on_device_.load(std::memory_order_relaxed), told_force_.load(std::memory_order_relaxed),
+                         is_held_back_.load(std::memory_order_relaxed)};
+  }
 
   LinkFault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
   /// For the exchanging thread. After close() it is the last state of the device.
@@ -74,8 +80,10 @@ class LinkStylus final : public Stylus {
   bool withholds(double now, bool closing) const noexcept;
   bool takes_nothing(double now) const noexcept;
   void fail(LinkFault fault) noexcept;
+  void tell_force() noexcept;
   void send_zeros() noexcept;
   bool may_push_on() const noexcept;
+  State told_state() const noexcept;
 
   Specification specification_;
   std::unique_ptr<Driver> driver_;
@@ -92,6 +100,9 @@ class LinkStylus final : public Stylus {
   Latest<Reading> reading_;
   Latest<Vec3> force_;
   std::atomic<double> allowed_force_{std::numeric_limits<double>::infinity()};  // N, by the motors' heat
+  std::atomic<OnDevice> told_on_device_{OnDevice::unknown};
+  std::atomic<double> told_force_{0};  // N: its length
+  std::atomic<bool> is_held_back_{false};
   // The exchanging thread's.
   double opened_ = 0;
   double exchange_time_ = 0;
@@ -99,9 +110,11 @@ class LinkStylus final : public Stylus {
   double force_time_ = 0;
   double news_time_ = 0;
   std::uint64_t news_ = 0;
+  bool has_pose_ = false;  // since it was opened
   double window_start_ = 0;
   std::uint64_t window_news_ = 0;
   Vec3 wanted_{0};          // N: the newest force asked for
+  double taken_force_ = 0;  // N: the length of the last one taken
   bool loss_told_ = false;  // to the guardian
   MissedGuardian missed_guardian_;
   SustainedLoad load_;

@@ -187,8 +187,8 @@ TEST(LinkStylusLayers, TheFirstFaultIsKeptUntilItIsOpenedAnew) {
   EXPECT_EQ(bench.force, Vec3(0));
   stylus->open();
   EXPECT_EQ(stylus->fault(), LinkFault::none);
-  EXPECT_EQ(stylus->state(), State::idle);
   push(bench, *stylus, 1, 0.3);
+  EXPECT_EQ(stylus->state(), State::idle);
   EXPECT_EQ(bench.force, Vec3(0, 1, 0));
 }
 
@@ -228,6 +228,84 @@ TEST(LinkStylusLayers, WhatCameBeforeItWasOpenIsNoNews) {
     bench.speaks = false;
     stylus->open();
   }
+}
+
+/// A device that is idle at once, as one that has kept its home, tells no pose before it sends one: until then it
+/// counts as homing, however late the first pose is. Nobody ever sees it idle at a place where it is not.
+TEST(LinkStylusLayers, ItIsIdleWithItsFirstPoseAndNotBefore) {
+  const Vec3 there(0.01, -0.02, 0.03);
+  for (const std::uint64_t before : {0, 40}) {
+    for (const int late : {0, 1, 10, 60, 90}) {  // exchanges, ms
+      LinkBench bench;
+      bench.first_news = before;
+      bench.position = there;
+      const auto stylus = unthreaded(bench);
+      for (int round = 0; round < 2; ++round) {
+        bench.speaks = false;
+        EXPECT_EQ(stylus->state(), State::homing);
+        for (int n = 0; n < late; ++n) {
+          stylus->service(exchange_s);
+          EXPECT_EQ(stylus->state(), State::homing) << late << " " << n;
+        }
+        bench.speaks = true;
+        stylus->service(exchange_s);
+        EXPECT_EQ(stylus->state(), State::idle) << late;
+        EXPECT_EQ(stylus->read().position, there);
+        bench.speaks = false;
+        stylus->service(exchange_s);
+        EXPECT_EQ(stylus->state(), State::idle) << "it goes on to be";
+        stylus->open();
+      }
+    }
+  }
+}
+
+/// What is told of a device that is homing, or has a fault, needs no pose.
+TEST(LinkStylusLayers, OnlyIdleNeedsAPose) {
+  LinkBench bench;
+  bench.speaks = false;
+  bench.state = State::homing;
+  const auto stylus = unthreaded(bench);
+  stylus->service(exchange_s);
+  EXPECT_EQ(stylus->state(), State::homing);
+  bench.state = State::fault;
+  bench.fault = LinkFault::unhomed;
+  stylus->service(exchange_s);
+  EXPECT_EQ(stylus->state(), State::fault);
+}
+
+/// A device that is lost may still take forces, and hold its last: it gets zeros in each exchange, whatever is asked
+/// for, and in the first that it takes. One that has taken a zero before gets nothing more. None of these zeros counts
+/// as taken, because no pose follows.
+TEST(LinkStylusLayers, ADeviceThatIsLostIsGivenZeros) {
+  for (const ForceAnswer first : {ForceAnswer::taken, ForceAnswer::refused, ForceAnswer::waiting}) {
+    for (const double newtons : {0.5, 3.0, 8.0}) {
+      LinkBench bench;
+      const auto stylus = unthreaded(bench);
+      push(bench, *stylus, newtons, 0.5);
+      ASSERT_EQ(bench.force, Vec3(0, newtons, 0));
+      bench.forces.clear();
+      bench.lost = true;
+      bench.answer = first;
+      for (int n = 0; n < 200; ++n) {
+        if (n == 20) bench.answer = ForceAnswer::taken;
+        stylus->write_force(Vec3(0, newtons, 0));
+        stylus->service(exchange_s);
+        EXPECT_EQ(bench.force, first == ForceAnswer::taken || n >= 20 ? Vec3(0) : Vec3(0, newtons, 0)) << n;
+      }
+      EXPECT_EQ(stylus->fault(), LinkFault::unplugged);
+      EXPECT_EQ(stylus->on_device(), OnDevice::unknown);
+      for (const Vec3& force : bench.forces) EXPECT_EQ(force, Vec3(0));
+    }
+  }
+  LinkBench at_rest;
+  const auto stylus = unthreaded(at_rest);
+  push(at_rest, *stylus, 0, 0.1);
+  at_rest.forces.clear();
+  at_rest.lost = true;
+  for (int n = 0; n < 20; ++n) stylus->service(exchange_s);
+  EXPECT_TRUE(at_rest.forces.empty());
+  EXPECT_EQ(stylus->on_device(), OnDevice::zero_taken);
 }
 
 /// A stylus that is closed gives zeros until the device has sent two poses after the first of them, or for 50 ms; then

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "device/link/link.h"
@@ -42,6 +43,8 @@ struct ProtocolStatus {
   /// zero, and ramps it up when the doubt ends.
   bool doubtful = false;
   bool withheld = false;  ///< Protocol::step() sent zeros in place of the requested force
+  /// N: Protocol::step() sends no more, whatever is requested, as to a device that is on trial.
+  double most_force = std::numeric_limits<double>::infinity();
 };
 
 class Protocol {

@@ -9,6 +9,7 @@ namespace {
 
 FakeDrd& state = palpate::device::shared_state<FakeDrd>("PALPATE_FAKE_DRD");
 double (*clock_of_test)() = nullptr;
+void (*hook_of_test)(const char* call) = nullptr;
 
 double now() {
   if (clock_of_test != nullptr) return clock_of_test();
@@ -19,6 +20,11 @@ double now() {
 
 int result(const char* call) {
   return state.failing != 0 || state.unplugged != 0 || std::strcmp(call, state.failing_call) == 0 ? -1 : 0;
+}
+
+/// What happens meanwhile.
+void during(const char* call) {
+  if (hook_of_test != nullptr) hook_of_test(call);
 }
 
 void note(char what) {
@@ -42,6 +48,9 @@ FakeDrd* fake_drd() {
 }
 void fake_drd_set_clock(double (*clock)()) {
   clock_of_test = clock;
+}
+void fake_drd_set_hook(void (*hook)(const char* call)) {
+  hook_of_test = hook;
 }
 void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
   *major = state.major;
@@ -69,9 +78,11 @@ const char* dhdErrorGetLastStr() {
 int drdOpenID(char id) {
   if (id >= state.devices) return -1;
   state.opened = state.opened + 1;
+  during("drdOpenID");
   return id;
 }
 int drdClose(char) {
+  during("drdClose");
   state.closed = state.closed + 1;
   return 0;
 }
@@ -80,6 +91,7 @@ bool drdIsInitialized(char) {
 }
 int drdAutoInit(char) {
   state.auto_inits = state.auto_inits + 1;
+  during("drdAutoInit");
   if (state.homing_fails != 0) return -1;
   state.homed = 1;
   state.is_regulating = 1;
@@ -88,6 +100,7 @@ int drdAutoInit(char) {
   return 0;
 }
 int drdStop(bool keep_forces, char) {
+  during("drdStop");
   note('S');
   if (state.is_regulating == 0 || result("drdStop") < 0) return -1;
   state.is_regulating = 0;
@@ -122,6 +135,7 @@ int dhdEnableForce(unsigned char on, char) {
   return result("dhdEnableForce");
 }
 int dhdStop(char id) {
+  during("dhdStop");
   state.stopped = state.stopped + 1;
   if (id == state.unstoppable) return -1;
   if (state.unplugged == 0) state.forces_on = 0;

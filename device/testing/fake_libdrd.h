@@ -2,8 +2,9 @@
 
 /// A replacement for libdrd.so with one device, whose firmware has a watchdog. Like a real device, it keeps applying
 /// the latest force. Plain C data, accessed through dlsym: `struct FakeDrd* fake_drd(void)`; `bool
-/// fake_drd_is_pushing(void)`; and `void fake_drd_set_clock(double (*)(void))`, for a clock of the test. The data are
-/// in the file named by $PALPATE_FAKE_DRD, if it is set, which processes share.
+/// fake_drd_is_pushing(void)`; `void fake_drd_set_clock(double (*)(void))`, for a clock of the test; and `void
+/// fake_drd_set_hook(void (*)(const char*))`, for what happens during the calls that open, home, stop or close a
+/// device. The data are in the file named by $PALPATE_FAKE_DRD, if it is set, which processes share.
 
 struct FakeDrd {
   int devices = 1;

@@ -194,7 +194,7 @@ FakeRig haply(const std::vector<Waypoint>& path, const char* type) {
   rig.impossible = [held] { held->is_elsewhere = true; };
   rig.delay = [service](double delay) { service->delay = delay; };
   rig.foreign = [service] { service->others_force = Vec3(0, 0, 1.5); };
-  rig.unhome = [service] { service->ready = false; };
+  rig.unhome = [service] { service->calibrated = false; };
   return rig;
 }
 
@@ -309,6 +309,11 @@ FakeRig force_dimension(const std::vector<Waypoint>& path) {
   rig.unplug = [drd] { drd->unplugged = 1; };
   rig.replug = [drd] { drd->unplugged = 0; };
   rig.impossible = [held] { held->is_elsewhere = true; };
+  // Its poses fail, its forces do not; and it is a model without a watchdog.
+  rig.silence = [drd] {
+    drd->watchdog_s = 0;
+    std::strcpy(drd->failing_call, "dhdGetPosition");
+  };
   rig.unhome = [drd] { drd->homed = 0; };
   rig.refuse = [drd] { std::strcpy(drd->failing_call, "dhdSetForceAndTorqueAndGripperForce"); };
   return rig;

@@ -124,6 +124,7 @@ struct FaultEvent {
   double observed_s;
   std::function<bool(FaultSession&)> cause;  ///< false if this device cannot have it
   const char* borne_by = "";                 ///< the kind to which it does nothing
+  const char* heard_by = "";                 ///< the kind that takes the program's zeros all the same
 };
 
 bool apply(const std::function<void()>& fault) {
@@ -208,7 +209,7 @@ std::vector<FaultEvent> fault_events() {
        [](S& s) { return s.rig.guard && s.is_refused(); }},
       {"the machine is about to sleep", EndedBy::program, 0, 0.5,
        [](S& s) { return s.rig.guard && (s.rig.guard->beat.sleep_is_near = true); }},
-      {"silent", EndedBy::device, 0, 1, [](S& s) { return apply(s.rig.silence); }},
+      {"silent", EndedBy::device, 0.02, 1, [](S& s) { return apply(s.rig.silence); }, "", "force_dimension"},
       {"short or split packets", EndedBy::nobody, 0, 0.5, [](S& s) { return apply(s.rig.shorten); }},
       {"half messages", EndedBy::program, 0.5, 1, [](S& s) { return apply(s.rig.halve); }},
       // Of the Haply's many messages half are enough, and each is whole or nothing.
@@ -342,7 +343,9 @@ std::vector<FaultRow> fault_table(const std::string& kind) {
     FaultRow row = session.finish();
     row.device = name_of_rig(kind);
     row.event = event.name;
-    row.ended_by = event.borne_by == session.rig.type->kind ? EndedBy::nobody : event.ended_by;
+    row.ended_by = event.borne_by == session.rig.type->kind   ? EndedBy::nobody
+                   : event.heard_by == session.rig.type->kind ? EndedBy::program
+                                                              : event.ended_by;
     // A Haply's guardian can only look on: the service adds up the forces of its clients.
     if (row.ended_by == EndedBy::guardian && session.rig.guardian_looks_on) row.ended_by = EndedBy::device;
     row.seen_after_s = event.seen_after_s;

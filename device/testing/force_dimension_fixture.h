@@ -31,9 +31,11 @@ class ForceDimensionFixture : public ::testing::Test {
     *drd = FakeDrd{};
     set_clock = reinterpret_cast<void (*)(double (*)())>(dlsym(library, "fake_drd_set_clock"));
     set_clock([] { return time; });
+    set_hook = reinterpret_cast<void (*)(void (*)(const char*))>(dlsym(library, "fake_drd_set_hook"));
   }
   ~ForceDimensionFixture() override {
     set_clock(nullptr);
+    set_hook(nullptr);
     unsetenv("PALPATE_LIBDRD");
   }
   static double now() noexcept { return time; }
@@ -57,6 +59,7 @@ class ForceDimensionFixture : public ::testing::Test {
 
   FakeDrd* drd = nullptr;
   void (*set_clock)(double (*)()) = nullptr;
+  void (*set_hook)(void (*)(const char* call)) = nullptr;
   inline static double time = 0;  // s
 };
 

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "device/link/link_stylus.h"
+#include "device/vectors.h"
 
 namespace palpate::device {
 
@@ -21,6 +23,7 @@ struct LinkBench {
   State state = State::idle;
   LinkFault fault = LinkFault::none;  ///< reported by the device
   bool doubtful = false;
+  double most_force = std::numeric_limits<double>::infinity();  ///< N: it takes no more, as on trial
   ForceAnswer answer = ForceAnswer::taken;
   Vec3 position{0};
   Vec3 force{0};             ///< N: on the device
@@ -46,13 +49,14 @@ class LinkBenchDriver final : public Driver {
     status_.state = bench_.state;
     status_.fault = bench_.fault;
     status_.doubtful = bench_.doubtful;
+    status_.most_force = bench_.most_force;
     if (!bench_.speaks) return;
     status_.position = bench_.position;
     ++status_.news;
   }
   ForceAnswer give(const Vec3& force) noexcept override {
     if (bench_.answer == ForceAnswer::waiting || bench_.answer == ForceAnswer::refused) return bench_.answer;
-    bench_.force = bench_.answer == ForceAnswer::withheld ? Vec3(0) : force;
+    bench_.force = bench_.answer == ForceAnswer::withheld ? Vec3(0) : clamp_length(force, bench_.most_force);
     bench_.forces.push_back(bench_.force);
     return bench_.answer;
   }

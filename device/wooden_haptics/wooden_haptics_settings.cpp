@@ -1,4 +1,6 @@
+#include <array>
 #include <stdexcept>
+#include <string>
 
 #include "device/messages.h"
 #include "device/settings_file.h"
@@ -10,6 +12,17 @@ namespace {
 
 void require(bool holds, const Text& what) {
   if (!holds) throw Refusal(at_place("WoodenHaptics", what));
+}
+
+void require_near(const char* key, double value, double usual, double factor, const std::string& axis = "") {
+  const Text wrong = wrong_calibration(key, value, usual, factor, axis);
+  require(wrong.empty(), wrong);
+}
+
+/// A for each N at the end of the bodies that a motor turns, where they are stretched.
+double current_of_a_force(const WoodenHapticsSettings& s, std::size_t axis) {
+  const std::array levers{s.lower_length + s.upper_length, s.lower_length, s.upper_length};
+  return levers[axis] * s.capstan_diameter[axis] / s.body_diameter[axis] / s.torque_constant[axis];
 }
 
 constexpr const char* preset_names = "2015, 2016, 2019 or woody";
@@ -64,20 +77,25 @@ WoodenHapticsSettings wooden_haptics_preset(const std::string& name) {
 }
 
 void check(const WoodenHapticsSettings& settings) {
+  const WoodenHapticsSettings usual = wooden_haptics_preset(settings.preset);
+  require_near("lower_length", settings.lower_length, usual.lower_length, dimension_factor);
+  require_near("upper_length", settings.upper_length, usual.upper_length, dimension_factor);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string axis = std::string(" of axis ") + "abc"[i];
-    require(settings.capstan_diameter[i] > 0 && settings.body_diameter[i] > settings.capstan_diameter[i],
-            say("diameters-must-be-above-zero", axis));
-    require(settings.torque_constant[i] > 0, say("torque-constant-must-be-above-zero", axis));
-    require(settings.counts_per_turn[i] > 0, say("counts-per-turn-must-be-above", axis));
+    require_near("capstan_diameter", settings.capstan_diameter[i], usual.capstan_diameter[i], dimension_factor, axis);
+    require_near("body_diameter", settings.body_diameter[i], usual.body_diameter[i], dimension_factor, axis);
+    require_near("torque_constant", settings.torque_constant[i], usual.torque_constant[i], calibration_factor, axis);
+    require_near("counts_per_turn", settings.counts_per_turn[i], usual.counts_per_turn[i], calibration_factor, axis);
+    // Each may be near, and all together not.
+    const double times = current_of_a_force(settings, i) / current_of_a_force(usual, i);
+    require(is_near(times, 1), say("forces-would-be-multiplied", axis, short_number(times),
+                                   short_number(1 / calibration_factor), short_number(calibration_factor)));
     require(settings.encoder_sign[i] == 1 || settings.encoder_sign[i] == -1, say("encoder-sign-is-1-or-1", axis));
     require(settings.home_counts[i] >= -32768 && settings.home_counts[i] <= 32767,
             say("home-counts-must-fit-16-bits", axis));
   }
-  require(!settings.preset.empty(), say("name-the-arm-as-preset", preset_names));
   require(settings.continuous_current > 0 && settings.continuous_current <= settings.current_limit,
           say("continuous-current-lies-between-0"));
-  require(settings.lower_length > 0 && settings.upper_length > 0, say("lengths-of-the-bodies-must"));
   require(settings.workspace_radius > 0 && settings.workspace_radius <= 1, say("workspace-radius-lies-within-1-m"));
   require(settings.current_limit > 0 && settings.current_limit <= 3, say("current-limit-lies-between-0"));
   check_limits("WoodenHaptics", settings, {});

@@ -98,6 +98,10 @@ class LiveSession {
 
   /// As Stylus::allowed_force(); infinite without a stylus.
   double allowed_force_n() const noexcept;
+  /// As Stylus::force_on_device(); none without a stylus.
+  std::optional<device::ForceOnDevice> force_on_device() const noexcept {
+    return stylus_ ? stylus_->force_on_device() : std::nullopt;
+  }
   void feel() noexcept;     ///< ramps the force up
   void release() noexcept;  ///< lets the force fall to zero, where it stays until feel()
   /// The latest request, by feel(), release() or connect(). A cleared fault counts as release().

@@ -18,6 +18,7 @@
 #include "plugin/openigtlink/say.h"
 #include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
+#include "plugin/structures/same_space.h"
 
 namespace palpate::plugin::igtl {
 namespace {
@@ -77,13 +78,25 @@ void Announcer::follow_session() {
     if (const auto plan = session_.plan()) workspace_.set(plan->workspace);
     next_tick_ = 0;
     presses_ = {};
+    is_cut_off_ = false;
     is_new_ = true;
     next_status_ = {};
   }
   if (!std::exchange(is_new_, false) && plan_ == session_.plan() && scan_ == session_.scan()) return;
   plan_ = session_.plan();
-  scan_ = session_.scan();
+  const auto before = std::exchange(scan_, session_.scan());
+  const bool is_same = before == scan_ || (before && scan_ && have_same_space(*before, *scan_));
+  if (before && !is_same) leave_marks();
   announce_scene();
+}
+
+/// Places in another patient mean nothing here. The owner of marks that are made elsewhere does the same.
+void Announcer::leave_marks() {
+  if (makes_marks_ == MakesMarks::no) return;
+  set_marks({});
+  presses_.drop();
+  is_cut_off_ = true;
+  scan_epoch_ = session_.epoch();
 }
 
 void Announcer::announce_scene() {
@@ -192,10 +205,10 @@ void Announcer::announce_marks() {
 }
 
 void Announcer::merge_marks(const std::vector<Point>& sent) {
+  follow_session();  // they are for the present scan
   std::vector<Point> marks = marks_;
-  for (const Point& point : changed_marks(marks_, sent)) {
-    const auto known = std::ranges::find(marks, point.name, &Point::name);
-    (known == marks.end() ? marks.emplace_back() : *known) = point;
+  for (const ChangedMark& changed : changed_marks(marks_, sent)) {
+    (changed.at < marks.size() ? marks[changed.at] : marks.emplace_back()) = changed.mark;
   }
   set_marks(marks);
 }
@@ -214,7 +227,9 @@ void Announcer::follow_marks() {
     shares.clear();
     if (!ticks_->read(next_tick_, tick, &shares)) continue;
     const modes::Workspace workspace = workspace_.at(tick);
-    if ((tick.buttons & mark_button) == 0 && !presses_.is_down()) continue;
+    const bool is_pressed = (tick.buttons & mark_button) != 0;
+    is_cut_off_ = is_cut_off_ && (is_pressed || tick.scene_epoch < scan_epoch_);
+    if (is_cut_off_ || (!is_pressed && !presses_.is_down())) continue;
     const glm::dvec3 proxy = workspace.to_patient(vector_of(tick.proxy_m));
     // Their modes are those of the scene of the tick.
     if (tick.scene_epoch != session_.epoch()) shares.clear();

@@ -39,13 +39,15 @@ class Announcer {
   void look();
   /// Replaces all marks.
   void set_marks(const std::vector<Point>& marks);
-  /// Adds and moves marks as a client's list says (changed_marks()). Throws as that does.
+  /// Adds and moves marks as a client's list says (changed_marks()). Throws as that does. With a scan of another
+  /// patient or frame of reference, all marks go, unless the owner of the session makes them.
   void merge_marks(const std::vector<Point>& sent);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void follow_session();
+  void leave_marks();
   void announce_scene();
   void announce_off();
   void announce_status(const TickRecord& tick);
@@ -69,6 +71,8 @@ class Announcer {
   Clock::time_point next_status_, next_contact_;
   FeltWorkspace workspace_;
   MarkPresses presses_;
+  bool is_cut_off_ = false;       // of a press on another patient; until the button is let go on this one
+  std::uint32_t scan_epoch_ = 0;  // of its first scene
   std::uint64_t next_tick_ = 0;
   std::vector<Point> marks_;  // as sent
   Job<std::vector<Shape>> shapes_;

@@ -92,7 +92,7 @@ std::vector<Point> points_of(ByteView content) {
   std::vector<Point> points(content.size() / point_size);
   Reader reader(content);
   for (Point& point : points) {
-    point.name = reader.text(point_name_size);
+    point.name = reader.utf8(point_name_size);
     point.group = reader.text(point_group_size);
     std::ranges::copy(reader.raw(point.rgba.size()), point.rgba.begin());
     point.position = read_vector(reader);

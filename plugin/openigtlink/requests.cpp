@@ -1,6 +1,7 @@
 #include "plugin/openigtlink/requests.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/errors.h"
 #include "io/structures/structure.h"
@@ -13,6 +14,8 @@
 
 namespace palpate::plugin::igtl {
 namespace {
+
+constexpr int most_restarts = 4;
 
 /// The session as it is when the work begins.
 struct Base {
@@ -89,38 +92,49 @@ modes::Scene tightened(modes::Scene scene, const modes::Limits& limits, double s
 
 Requests::Requests(const LiveSession& session, Server& server, Received& received, JobThreads& threads, Changes changes)
     : session_(session), server_(server), received_(received), changes_(std::move(changes)), change_(threads) {
-  keep_own_limits();
+  follow_owner();
 }
 
-void Requests::keep_own_limits() {
+void Requests::follow_owner() {
   if (plan_ && plan_ == session_.plan()) return;
   plan_ = session_.plan();
+  std::string scene = modes::to_json(session_.scene());
+  if (owners_scene_ && scene == scene_) return;  // another frame of the scan
+  scene_ = std::move(scene);
+  owners_scene_ = std::make_shared<const std::string>(scene_);
+  server_.set_owners_scene(owners_scene_);
   limits_ = session_.scene().limits;
   stiffness_n_per_m_ = session_.scene().stiffness_n_per_m;
 }
 
 void Requests::look() {
-  keep_own_limits();
-  if (change_.is_busy()) {
-    if (!change_.is_ready() || (changes_.is_settled && !changes_.is_settled())) return;
-    try {
-      finish(change_.take());
-    } catch (const std::exception& error) {
-      refuse(asked_->client, error);
-    }
-  }
+  follow_owner();
+  end_prepared();
+  if (is_busy()) return;
   // New requests wait in the server, where the newest replaces earlier ones.
   if (waiting_.empty()) {
     for (Server::Request& request : server_.take()) {
       waiting_.push_back(std::make_shared<const Server::Request>(std::move(request)));
     }
   }
-  while (!waiting_.empty() && !change_.is_busy()) {
+  while (!waiting_.empty() && !is_busy()) {
     asked_ = std::move(waiting_.front());
     waiting_.pop_front();
+    restarts_ = 0;
     begin();
   }
-  if (!change_.is_busy()) asked_.reset();  // its bytes are free for others
+  if (!is_busy()) asked_.reset();  // its bytes are free for others
+}
+
+void Requests::end_prepared() {
+  try {
+    if (change_.is_ready()) prepared_ = change_.take();
+    if (!prepared_ || (changes_.is_settled && !changes_.is_settled())) return;
+    const Change change = *std::exchange(prepared_, std::nullopt);
+    finish(change);
+  } catch (const std::exception& error) {
+    refuse(asked_->client, error);
+  }
 }
 
 void Requests::begin() {
@@ -129,7 +143,6 @@ void Requests::begin() {
       changes_.set_marks(points_of(asked_->message.content));
     } else if (const Prepare work = work_for(asked_)) {
       begun_on_ = session_.plan();
-      begun_scene_ = modes::to_json(session_.scene());
       change_.start(work);
     }
   } catch (const std::exception& error) {
@@ -163,6 +176,7 @@ Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request
   if (message.device == scene_name) {
     const modes::Scene named = received_.with_files(modes::scene_from_json(text, scene_name));
     internal::check_files(request, named, base.scene());
+    check_owners_scene(request, named);
     const modes::Scene scene = drawn_down(in_own_workspace(named, request.client), request.client);
     // A client that sends its copy whenever it changes also sends back what it received; as a change this would never
     // end.
@@ -191,10 +205,16 @@ Requests::Prepare Requests::work_for(const std::shared_ptr<const Server::Request
   };
 }
 
-/// The owner has changed scene or scan while it was prepared. A whole scene of before would undo that.
+/// The owner has changed the scene since the request came: a whole scene of before would undo that.
+void Requests::check_owners_scene(const Server::Request& request, const modes::Scene& named) const {
+  const bool is_older = request.owners_scene && *request.owners_scene != *owners_scene_;
+  if (is_older && modes::to_json(named) != scene_) throw Refusal(say("igtl-scene-is-older"));
+}
+
+/// The owner has changed scene or scan while it was prepared. While the frames of a scan play, that has no end.
 void Requests::begin_again() {
-  const bool is_scene = asked_->message.type == "STRING" && asked_->message.device == scene_name;
-  if (is_scene && modes::to_json(session_.scene()) != begun_scene_) throw Refusal(say("igtl-scene-is-older"));
+  if (restarts_ == most_restarts) throw Refusal(say("igtl-keeps-changing", restarts_ + 1));
+  ++restarts_;
   begin();
 }
 
@@ -216,6 +236,7 @@ void Requests::finish(const Change& change) {
   }
   if (!change.map.empty()) received_.use(change.map, change.file);
   plan_ = session_.plan();
+  scene_ = modes::to_json(session_.scene());
 }
 
 modes::Scene Requests::drawn_down(const modes::Scene& scene, std::uint64_t client) {

@@ -3,7 +3,7 @@
 /// Carries out the requests of clients: another scene, folder or structures, marks, a label map. For the controlling
 /// thread. Slow parts (reading, distances) are prepared in another thread, so that the heartbeat continues. A request
 /// changes the force along the ramp. It can neither turn the force on nor raise a limit, and does not undo what the
-/// owner does while it is prepared.
+/// owner does after it came.
 
 #include <deque>
 #include <filesystem>
@@ -38,8 +38,8 @@ struct Changes {
   std::function<void(const std::vector<Point>& marks)> set_marks;
   LoadScan load;                                          ///< for a folder, in another thread;
   std::function<void(const std::string& folder)> open{};  ///< or this instead, if it is set
-  /// Whether the session's scene is the owner's latest. If a change of the owner is still on its way, requests wait.
-  /// Always, if it is empty.
+  /// Whether the session's scene is the owner's latest. While a change of the owner is still on its way, no request
+  /// takes effect. Always, if it is empty.
   std::function<bool()> is_settled{};
   /// Whether a client's scene is felt with the session's own workspace: another one would move an armed stylus through
   /// the patient.
@@ -89,9 +89,15 @@ class Requests {
   void begin();
   /// Works on copies, because the session continues meanwhile. Empty if nothing changes.
   Prepare work_for(const std::shared_ptr<const Server::Request>& asked);
+  /// Whether a request is being prepared or waits to take effect.
+  bool is_busy() const { return change_.is_busy() || prepared_; }
+  /// Refuses what cannot be prepared, and lets the rest take effect when the owner's changes are through.
+  void end_prepared();
   void finish(const Change& change);
   void begin_again();
-  void keep_own_limits();
+  void check_owners_scene(const Server::Request& request, const modes::Scene& named) const;
+  /// Notes what the owner changes: limits, and the scene.
+  void follow_owner();
   void answer(std::uint64_t client, Status::Code code, const char* name, const Text& text);
   void refuse(std::uint64_t client, const std::exception& error);
   modes::Scene drawn_down(const modes::Scene& scene, std::uint64_t client);
@@ -106,10 +112,13 @@ class Requests {
   std::shared_ptr<const modes::Plan>
       plan_;  // of the scene of the latest request, or of the scene whose limits are kept
   std::deque<std::shared_ptr<const Server::Request>> waiting_;
-  std::shared_ptr<const Server::Request> asked_;  // the latest one begun
-  std::shared_ptr<const modes::Plan> begun_on_;   // of the scene that it changes: every scene has its own plan
-  std::string begun_scene_;                       // that scene, as text
+  std::shared_ptr<const Server::Request> asked_;     // the latest one begun
+  std::shared_ptr<const modes::Plan> begun_on_;      // of the scene that it changes: every scene has its own plan
+  int restarts_ = 0;                                 // of the latest one
+  std::string scene_;                                // the session's, as text
+  std::shared_ptr<const std::string> owners_scene_;  // the latest one that did not come from a request
   Job<Change> change_;
+  std::optional<Change> prepared_;  // waits until the owner's changes are through
   std::string last_told_;
 };
 

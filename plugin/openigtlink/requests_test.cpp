@@ -124,6 +124,16 @@ TEST(OpenIgtRequests, LimitsAndStiffnessAreNeverRaised) {
   client.send_text(scene_name, modes::to_json(tight));
   ASSERT_TRUE(shared.comes([&] { return shared.session.scene().name == "tight"; }));
   EXPECT_EQ(shared.session.scene().limits.force_n, 0.5);
+  // What was set at the stylus is had again, and no more.
+  mild.name = "mild again";
+  client.send_text(scene_name, modes::to_json(mild));
+  ASSERT_TRUE(shared.comes([&] { return shared.session.scene().name == "mild again"; }));
+  EXPECT_EQ(shared.session.scene().limits.force_n, 1.5);
+  wild.name = "wild again";
+  client.send_text(scene_name, modes::to_json(wild));
+  ASSERT_TRUE(shared.comes([&] { return shared.session.scene().name == "wild again"; }));
+  EXPECT_EQ(shared.session.scene().limits.force_n, 1.5);
+  EXPECT_EQ(shared.session.scene().stiffness_n_per_m, 300);
 }
 
 TEST(OpenIgtRequests, NothingTurnsTheForceOn) {

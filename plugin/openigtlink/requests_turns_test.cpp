@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -25,8 +26,10 @@ struct SlowFolder {
   std::promise<void> begun, let_go;
   std::shared_future<void> until = let_go.get_future().share();
 
+  std::atomic<int> loads{0};
+
   LoadedScan load() {
-    begun.set_value();
+    if (++loads == 1) begun.set_value();
     until.wait();
     return {.volume = testing::ball_of_tissue(), .frame = {}};
   }
@@ -120,6 +123,77 @@ TEST(OpenIgtRequests, ASceneThatIsOlderThanTheOwnersIsRefused) {
   shared.sharing->look();
   shared.session.set_scan(testing::ball_of_tissue());
   EXPECT_TRUE(shared.comes([&] { return shared.session.scene().name == "a client's"; }));
+}
+
+/// However long it waits for its turn. What the client itself asks for before it, and another frame of the scan, are no
+/// changes of the owner.
+TEST(OpenIgtRequests, ASceneThatWaitsIsRefusedIfTheOwnerChangesTheSceneMeanwhile) {
+  enum class Owner { does_nothing, changes_before, changes_after, changes_and_undoes, takes_another_frame };
+  for (const Owner owner : {Owner::does_nothing, Owner::changes_before, Owner::changes_after, Owner::changes_and_undoes,
+                            Owner::takes_another_frame}) {
+    SCOPED_TRACE(static_cast<int>(owner));
+    SharedSession shared;
+    SlowFolder slow;
+    shared.load = [&](const std::string&) { return slow.load(); };
+    TestClient client(shared.server.port());
+    client.send_text(folder_name, "/scans/slow");
+    auto begun = slow.begun.get_future();
+    EXPECT_TRUE(shared.comes([&] { return begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+    const modes::Scene first = shared.session.scene();
+    modes::Scene theirs = first, own = first;
+    theirs.name = "a client's";
+    own.name = "the owner's";
+    const auto change_to = [&](const modes::Scene& scene) {
+      shared.session.set_scene(scene);
+      shared.look();
+    };
+    if (owner == Owner::changes_before) change_to(own);
+    client.send(testing::ball_of_labels("liver", glm::dvec3(0), 20));
+    client.send_text(scene_name, modes::to_json(theirs));
+    EXPECT_TRUE(shared.comes([&] { return shared.server.counts().taken == 3; }));
+    if (owner == Owner::changes_after || owner == Owner::changes_and_undoes) change_to(own);
+    if (owner == Owner::changes_and_undoes) change_to(first);
+    if (owner == Owner::takes_another_frame) shared.session.set_scan(testing::ball_of_tissue());
+    slow.let_go.set_value();
+    if (owner == Owner::changes_after) {
+      EXPECT_EQ(testing::text_of_status(shared, client, "refused"),
+                "refused: the scene was changed at the stylus while this one was being prepared");
+      EXPECT_EQ(shared.session.scene().name, "the owner's");
+      EXPECT_EQ(shared.session.scene().structures.size(), 1U) << "the label map goes on from the owner's scene";
+    } else {
+      EXPECT_TRUE(shared.comes([&] { return shared.session.scene().name == "a client's"; }));
+    }
+  }
+}
+
+/// As while the frames of a scan play: nothing is ready before the next one.
+TEST(OpenIgtRequests, WhatIsOutOfDateAgainAndAgainIsRefusedInWords) {
+  std::atomic<int> loads{0}, frames{0};
+  SharedSession shared;
+  shared.load = [&](const std::string&) {
+    for (const int frame = ++loads; frames < frame;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return LoadedScan{.volume = testing::ball_of_tissue(), .frame = {}};
+  };
+  TestClient client(shared.server.port());
+  client.send_text(folder_name, "/scans/slow");
+  std::optional<Status> status;
+  EXPECT_TRUE(shared.comes([&] {
+    if (frames < loads) {
+      shared.session.set_scan(testing::ball_of_tissue());
+      ++frames;
+    }
+    status = client.next_status("refused", 2);
+    return status.has_value();
+  }));
+  frames = 1000;  // they stand
+  ASSERT_TRUE(status);
+  EXPECT_EQ(
+      status->text,
+      "refused: scan or scene changed 5 times while this was being prepared: stop the playback, and send it again");
+  const auto before = shared.session.scan();
+  client.send_text(folder_name, "/scans/slow");
+  EXPECT_TRUE(shared.comes([&] { return shared.session.scan() != before; })) << "the next one is carried out";
+  EXPECT_EQ(loads, 6);
 }
 
 /// The panel's thread would miss its heartbeat.

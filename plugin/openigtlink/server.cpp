@@ -100,6 +100,11 @@ void Server::answer(std::uint64_t client, const std::string& name, Bytes wire) {
   answers_.push_back({client, {name, std::make_shared<const Bytes>(std::move(wire))}});
 }
 
+void Server::set_owners_scene(std::shared_ptr<const std::string> scene) {
+  const std::lock_guard lock(mutex_);
+  owners_scene_ = std::move(scene);
+}
+
 std::vector<Server::Request> Server::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(requests_, {});
@@ -229,7 +234,7 @@ void Server::keep_request(Client& client, Message&& message) {
   const std::size_t size = message.content.size();
   *bytes_ += size;
   std::shared_ptr<const void> counted(bytes_.get(), [bytes = bytes_, size](const void*) { *bytes -= size; });
-  requests_.push_back({client.id(), client.from_this_machine(), std::move(message), std::move(counted)});
+  requests_.push_back({client.id(), client.from_this_machine(), std::move(message), std::move(counted), owners_scene_});
 }
 
 void Server::answer_query(Client& client, const Message& message) {

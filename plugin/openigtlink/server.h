@@ -34,6 +34,8 @@ class Server {
     bool from_this_machine = true;
     Message message;
     std::shared_ptr<const void> counted = nullptr;  ///< while it exists, the message's bytes count as taken
+    /// The owner's scene when the request came, as text; null: it was not told.
+    std::shared_ptr<const std::string> owners_scene = nullptr;
   };
 
   /// Listens. Requests count until they are destroyed. A new one is refused if others still count and would take more
@@ -54,6 +56,8 @@ class Server {
   void forget(const std::string& name);
   /// For one client.
   void answer(std::uint64_t client, const std::string& name, Bytes wire);
+  /// Tells the owner's scene: requests that come from now on carry it.
+  void set_owners_scene(std::shared_ptr<const std::string> scene);
   /// The requests since the previous call: the newest of each type and device.
   std::vector<Request> take();
   ServerCounts counts() const;
@@ -84,6 +88,7 @@ class Server {
   std::vector<Waiting> offered_, kept_;
   std::vector<std::pair<std::uint64_t, Waiting>> answers_;
   std::vector<Request> requests_;
+  std::shared_ptr<const std::string> owners_scene_;
   ServerCounts counts_;
 };
 

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -18,6 +17,7 @@
 #include "io/structures/structure.h"
 #include "plugin/messages/messages.h"
 #include "plugin/structures/named_structure.h"
+#include "plugin/structures/same_space.h"
 #include "plugin/structures/shared_distance.h"
 #include "plugin/structures/shared_edits.h"
 #include "plugin/structures/structure_files.h"
@@ -168,11 +168,7 @@ const LoadedStructure* find_loaded(const modes::SceneStructure& wanted, double r
 
 std::vector<LoadedStructure> carried_over(const std::vector<LoadedStructure>& structures, const io::Volume& from,
                                           const io::Volume& to) {
-  const auto whose = [](const io::Volume& volume) {
-    return std::tie(volume.frame_of_reference_uid, volume.patient_id, volume.patient_name);
-  };
-  if (from.frame_of_reference_uid.empty() || whose(from) != whose(to) || !same_place(from.geometry, to.geometry))
-    return {};
+  if (!have_same_space(from, to) || !same_place(from.geometry, to.geometry)) return {};
   std::vector<LoadedStructure> carried = structures;
   for (LoadedStructure& one : carried) {
     const auto first = std::ranges::find_if(

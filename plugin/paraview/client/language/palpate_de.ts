@@ -824,6 +824,10 @@
         <translation>Aufzeichnungen (*.h5)</translation>
     </message>
     <message>
+        <source>unknown</source>
+        <translation>unbekannt</translation>
+    </message>
+    <message>
         <source>Open the stylus again</source>
         <translation>Den Stift neu öffnen</translation>
     </message>
@@ -1893,8 +1897,12 @@ ID %2, Studie vom %3</translation>
         <translation>Bereit: zur Referenzfahrt %1</translation>
     </message>
     <message>
-        <source>Stopped: the stylus does not answer. Check its plug and power, then connect it again</source>
-        <translation>Angehalten: Der Stift antwortet nicht. Stecker und Strom prüfen, dann neu verbinden</translation>
+        <source>The stylus does not answer: check its plug and power, then open it again.</source>
+        <translation>Der Stift antwortet nicht: prüfen Sie Stecker und Strom, dann öffnen Sie ihn neu.</translation>
+    </message>
+    <message>
+        <source>Stopped: the stylus may still push. Switch its power off. %1</source>
+        <translation>Angehalten: Der Stift drückt vielleicht noch. Schalten Sie seinen Strom ab. %1</translation>
     </message>
     <message>
         <source>Feeling: forces are on</source>

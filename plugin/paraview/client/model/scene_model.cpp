@@ -35,7 +35,7 @@ void SceneModel::open(const modes::Scene& scene) {
 }
 
 void SceneModel::reopen() {
-  kept_.open(modes::to_json(present()));
+  kept_.open(modes::to_json(latest()));
   forget_steps();
 }
 
@@ -69,7 +69,8 @@ bool SceneModel::propose(const modes::Scene& scene) {
 
 bool SceneModel::is_settled() const {
   const std::string text = kept_.text(scene_key);
-  return !is_waiting() && !shown_before_ && (text.empty() || text == text_);
+  const bool is_held = shown_before_ && shown_before_->is_held;
+  return !is_waiting() && !is_held && (text.empty() || text == text_);
 }
 
 void SceneModel::follow_text() {
@@ -175,7 +176,7 @@ void SceneModel::drop_waiting() {
 
 void SceneModel::put_back() {
   if (!kept_.is_open()) return;
-  text_ = modes::to_json(present());
+  text_ = modes::to_json(latest());
   kept_.put(scene_key, text_);
 }
 
@@ -258,7 +259,9 @@ void SceneModel::show_before() {
 }
 
 void SceneModel::show_now() {
-  if (!shown_before_ || std::exchange(shown_before_->ends, true)) return;
+  if (!shown_before_) return;
+  shown_before_->is_held = false;
+  if (std::exchange(shown_before_->ends, true)) return;
   const auto change = [now = shown_before_->now](modes::Scene& scene) { scene = now; };
   put({.kind = Step::Kind::now, .what = {}, .change = change, .told = {}, .text = {}});
 }

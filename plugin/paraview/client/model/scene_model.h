@@ -50,8 +50,8 @@ class SceneModel : public QObject {
   void set_read(Read read) { read_ = std::move(read); }
   /// Whether a change waits.
   bool is_waiting() const { return reading_ || !waiting_.empty(); }
-  /// Whether the scene is the user's latest: no change waits, no scene of the pipeline is being prepared, and no
-  /// earlier one is shown instead (show_before()).
+  /// Whether no change is on its way: none waits, no scene of the pipeline is being prepared, and no earlier one is
+  /// held (show_before()). An earlier one that is shown only because the user's latest cannot be read does not count.
   bool is_settled() const;
   /// Another scan: drops the waiting changes, which were meant for the previous one, except the pipeline's scene.
   void drop_waiting();
@@ -62,6 +62,9 @@ class SceneModel : public QObject {
   void put_back();
 
   const modes::Scene& scene() const { return scene_; }
+  /// The user's latest scene, also while an earlier one is shown instead.
+  const modes::Scene& latest() const { return shown_before_ ? shown_before_->now : scene_; }
+  bool shows_before() const { return shown_before_.has_value(); }
   const ModeIds& mode_ids() const { return mode_ids_; }
   /// The scene as last opened or proposed, without later edits.
   const modes::Scene& opened() const { return opened_; }
@@ -131,8 +134,6 @@ class SceneModel : public QObject {
   void refuse_text(const QString& why);
   void keep(const QString& what);
   std::optional<modes::Scene> before_last_edit() const;
-  /// The scene, whatever is shown instead.
-  const modes::Scene& present() const { return shown_before_ ? shown_before_->now : scene_; }
 
   KeptText& kept_;
   Commit commit_;
@@ -149,7 +150,8 @@ class SceneModel : public QObject {
   std::deque<Texts> edits_;  // the last ones, oldest first
   struct ShownBefore {
     modes::Scene now;
-    bool ends = false;  ///< `now` is on its way back
+    bool is_held = true;  ///< its end was not asked for
+    bool ends = false;    ///< `now` is on its way back
   };
   std::optional<ShownBefore> shown_before_;
   std::optional<Step> reading_;  // its files are being read

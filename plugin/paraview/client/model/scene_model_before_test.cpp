@@ -162,6 +162,38 @@ TEST_F(SceneModelBefore, AnotherScanEndsIt) {
   EXPECT_EQ(model.scene().name, modes::load_scene("ct-chest").name);
 }
 
+/// The key was let go, but what is shown stays as long as the latest scene cannot be read: nobody waits for that.
+TEST_F(SceneModelBefore, WhatStaysBecauseTheLatestCannotBeReadIsNotHeld) {
+  std::function<void(const QString&)> done;
+  bool is_read = false;
+  model.set_read([&](const modes::Scene& scene, auto then) {
+    if (is_read || scene.limits.force_n != 2.5) return false;
+    done = std::move(then);
+    return true;
+  });
+  model.show_before();
+  EXPECT_FALSE(model.is_settled());
+  for (int n = 0; n < 2; ++n) {
+    model.show_now();
+    ASSERT_TRUE(done);
+    EXPECT_FALSE(model.is_settled()) << "it is on its way back";
+    std::exchange(done, nullptr)(QStringLiteral("the segment is gone"));
+    EXPECT_EQ(now(), 1.5);
+    EXPECT_TRUE(model.shows_before());
+    EXPECT_EQ(model.latest().limits.force_n, 2.5);
+    EXPECT_TRUE(model.is_settled());
+  }
+  model.edit(QStringLiteral("Stiffness"), stiffness(650));
+  ASSERT_TRUE(done);
+  EXPECT_FALSE(model.is_settled());
+  is_read = true;
+  std::exchange(done, nullptr)({});
+  EXPECT_EQ(now(), 2.5);
+  EXPECT_EQ(model.scene().stiffness_n_per_m, 650);
+  EXPECT_FALSE(model.shows_before());
+  EXPECT_TRUE(model.is_settled());
+}
+
 /// The key is let go while the files of the earlier scene are being read.
 TEST_F(SceneModelBefore, ItWaitsForFilesAndSoDoesWhatComesAfterIt) {
   std::function<void(const QString&)> done;

@@ -13,6 +13,7 @@
 #include "modes/scene/scene.h"
 #include "plugin/app/stylus_choice.h"
 #include "plugin/messages/messages.h"
+#include "plugin/paraview/client/model/session_state.h"
 #include "plugin/paraview/client/words.h"
 #include "plugin/report/held_boundary.h"
 #include "plugin/report/live_view.h"
@@ -207,9 +208,7 @@ void SessionController::keep_off(const QString& why) {
 void SessionController::clear_fault() {
   release();
   // A device in fault stays so until it is opened again; another fault is only forgotten.
-  const auto state = static_cast<device::State>(status_.tick.stylus_state);
-  const bool lost = live_.is_connected() && (state == device::State::fault || state == device::State::disconnected);
-  if (!lost) {
+  if (!live_.is_connected() || !is_lost(status_.tick)) {
     live_.clear_fault();
     return;
   }
@@ -330,13 +329,26 @@ modes::WorkspaceSettings SessionController::joined(const glm::dmat3& rotation) c
 }
 
 bool SessionController::may_remap() const {
-  return !live_.is_connected() || (!feels() && status_.force_n == 0);
+  return !live_.is_connected() ||
+         (!feels() && status_.force_n == 0 && glm::length(vector_of(status_.tick.sent_n)) == 0);
 }
 
 void SessionController::obey_buttons(std::uint32_t pressed, std::uint32_t let, bool releases) {
   if (releases) release();
   if ((pressed & clutch_button) != 0) clutch();
   if ((let & clutch_button) != 0) emit clutch_button_let_go();
+}
+
+void SessionController::tell_force() {
+  const double sent_n = glm::length(vector_of(status_.tick.sent_n)), allowed_n = live_.allowed_force_n();
+  const auto acting = live_.force_on_device();
+  status_.is_warm = sent_n > allowed_n;
+  status_.is_held_back = acting && acting->is_held_back;
+  status_.may_push = acting && acting->state != device::OnDevice::zero_taken && is_lost(status_.tick);
+  status_.force_n = acting ? acting->newtons : std::min(sent_n, allowed_n);
+  // The ticks' forces are no forces of the device where it gets others.
+  const bool is_other = status_.is_held_back || status_.may_push;
+  status_.peak_n = is_other ? status_.force_n : std::max(status_.force_n, std::min(status_.peak_n, allowed_n));
 }
 
 void SessionController::poll() {
@@ -369,10 +381,7 @@ void SessionController::poll() {
   status_.workspace = workspace_.at(tick);
   status_.probe_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.probe_m));
   status_.proxy_mm = parted_ ? parted_->at_mm : status_.workspace.to_patient(vector_of(tick.proxy_m));
-  const double sent_n = glm::length(vector_of(tick.sent_n)), allowed_n = live_.allowed_force_n();
-  status_.is_warm = sent_n > allowed_n;
-  status_.force_n = std::min(sent_n, allowed_n);
-  status_.peak_n = std::min(status_.peak_n, allowed_n);
+  tell_force();
   status_.missed = live_.missed();
   status_.homing = homing_;
   status_.trouble = words(live_.trouble());

@@ -42,11 +42,13 @@ struct SessionStatus {
   std::string tissue;
   std::string held;                         ///< the boundary that holds the proxy, in words; empty if none does
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
-  double force_n = 0;        ///< on the device, in the last tick: less than the tick's if its motors are warm
-  bool is_warm = false;      ///< the motors' heat limits the force
-  double peak_n = 0;         ///< the largest since the last poll
-  double tick_us = 0;        ///< median since the last poll
-  std::uint64_t missed = 0;  ///< since the stylus was connected
+  double force_n = 0;         ///< on the device, which may be another than the tick's; the last one known of a lost one
+  bool is_warm = false;       ///< the motors' heat limits the force
+  bool is_held_back = false;  ///< the device gets less than the tick's force for now, for another reason than heat
+  bool may_push = false;      ///< the stylus is lost, and it is not known that its force has ended
+  double peak_n = 0;          ///< the largest since the last poll
+  double tick_us = 0;         ///< median since the last poll
+  std::uint64_t missed = 0;   ///< since the stylus was connected
   bool clutched = false;
   bool feels = false;                         ///< forces were turned on, and not turned off since
   QString kept_off;                           ///< why the force is held back; empty: it is not
@@ -168,6 +170,8 @@ class SessionController : public QObject {
   void commit(const modes::Scene& scene, Pace pace);
   void follow_workspace();
   void poll();
+  /// What lies on the device, of the status' last tick.
+  void tell_force();
   /// The buttons pressed and released since the last poll.
   void obey_buttons(std::uint32_t pressed, std::uint32_t let, bool releases);
   void follow_marks();

@@ -7,6 +7,7 @@
 namespace palpate::plugin {
 
 struct SessionStatus;
+struct TickRecord;
 
 enum class SessionState {
   off,      ///< no stylus is connected
@@ -20,8 +21,13 @@ struct StateLine {
   QString words;               ///< begins with the state's name
   bool fault_latched = false;  ///< a fault that the user has to clear
   bool lost = false;           ///< the stylus has to be opened again
+
+  bool needs_clearing() const { return fault_latched || lost; }  ///< before a force can be felt
 };
 
 StateLine state_line_of(const SessionStatus& look);
+
+/// Whether the stylus gives no pose and takes no force in this tick: it has to be opened again.
+bool is_lost(const TickRecord& tick);
 
 }  // namespace palpate::plugin

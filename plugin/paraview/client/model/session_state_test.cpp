@@ -22,7 +22,7 @@ SessionStatus look_of(State state, bool feels, Fault fault = Fault::none) {
   look.connected = look.fresh = true;
   look.feels = feels;
   look.tick.safety = pack_safety(state, fault);
-  look.tick.stylus_state = static_cast<std::uint32_t>(State::active);
+  look.tick.stylus_state = static_cast<std::uint32_t>(fault == Fault::none ? state : State::active);
   return look;
 }
 
@@ -32,7 +32,9 @@ TEST(SessionState, EachStateHasItsLine) {
     bool feels;
     SessionState shown;
     const char* words;
+    bool lost = false;
   };
+  const char* const silent = "Stopped: The stylus does not answer: check its plug and power, then open it again.";
   const Case cases[] = {
       {State::idle, false, SessionState::ready, "Ready: no force. Feel turns it on"},
       {State::ramping, false, SessionState::ready, "Ready: the force is going down"},
@@ -41,16 +43,16 @@ TEST(SessionState, EachStateHasItsLine) {
       {State::ramping, true, SessionState::feeling, "Feeling: forces are coming up"},
       {State::active, true, SessionState::feeling, "Feeling: forces are on"},
       {State::homing, true, SessionState::ready, "Ready: homing, move the stylus as its maker says"},
-      {State::disconnected, true, SessionState::stopped,
-       "Stopped: the stylus does not answer. Check its plug and power, then connect it again"},
-      {State::fault, false, SessionState::stopped,
-       "Stopped: the stylus does not answer. Check its plug and power, then connect it again"},
+      {State::disconnected, true, SessionState::stopped, silent, true},
+      {State::fault, false, SessionState::stopped, silent, true},
   };
   for (const Case& one : cases) {
     const StateLine line = state_line_of(look_of(one.state, one.feels));
     EXPECT_EQ(line.state, one.shown) << one.words;
     EXPECT_EQ(line.words.toStdString(), one.words);
-    EXPECT_FALSE(line.fault_latched || line.lost) << one.words;
+    EXPECT_FALSE(line.fault_latched) << one.words;
+    EXPECT_EQ(line.lost, one.lost) << one.words;
+    EXPECT_EQ(line.needs_clearing(), one.lost) << one.words;
   }
 }
 
@@ -89,6 +91,63 @@ TEST(SessionState, WarmMotorsAreSaid) {
   EXPECT_EQ(state_line_of(look).words.toStdString(), "Feeling: the motors are warm, so the force is only 0.9 N");
   look.feels = false;
   EXPECT_NE(state_line_of(look).state, SessionState::feeling);
+}
+
+/// A stylus that is lost at rest latches nothing in the filter, which had no force to take away. It is told what the
+/// stylus knows, also while it is clutched, and the stylus can be opened again, whatever else keeps the force off.
+TEST(SessionState, OneThatIsLostAtRestIsSaidAndCanBeOpenedAgain) {
+  for (const State state : {State::fault, State::disconnected}) {
+    for (const bool clutched : {false, true}) {
+      for (const char* const trouble : {"The machine slept: open the stylus again.", "Another program pushes it."}) {
+        for (const char* const kept_off : {"", "a dialog is open"}) {
+          SessionStatus look = look_of(state, false);
+          look.clutched = clutched;
+          look.trouble = QString::fromUtf8(trouble);
+          look.kept_off = QString::fromUtf8(kept_off);
+          const StateLine line = state_line_of(look);
+          EXPECT_EQ(line.state, SessionState::stopped);
+          EXPECT_EQ(line.words.toStdString(), std::string("Stopped: ") + (*kept_off ? kept_off : trouble));
+          EXPECT_FALSE(line.fault_latched) << "there is no record of it";
+          EXPECT_TRUE(line.lost && line.needs_clearing());
+        }
+      }
+    }
+  }
+}
+
+/// Said first in each line of a stylus that stopped, and in no other: only a lost one may push unseen.
+TEST(SessionState, AForceThatMayStillActIsSaidFirst) {
+  const std::string warning = "Stopped: the stylus may still push. Switch its power off. ";
+  for (const Fault fault : {Fault::none, Fault::device_lost, Fault::tick_late}) {
+    for (const char* const kept_off : {"", "a dialog is open"}) {
+      SessionStatus look = look_of(State::fault, false, fault);
+      look.tick.stylus_state = static_cast<std::uint32_t>(State::fault);
+      look.trouble = QStringLiteral("its plug is out");
+      look.kept_off = QString::fromUtf8(kept_off);
+      const std::string why = *kept_off ? kept_off : "its plug is out";
+      EXPECT_EQ(state_line_of(look).words.toStdString(), "Stopped: " + why);
+      look.may_push = true;
+      EXPECT_EQ(state_line_of(look).words.toStdString(), warning + why);
+      EXPECT_EQ(state_line_of(look).state, SessionState::stopped);
+    }
+  }
+}
+
+/// The session gives its full force, but the link lets it come back by a ramp, or the device is on trial. That has
+/// nothing to do with warm motors.
+TEST(SessionState, AForceThatIsHeldBackIsNotOnYet) {
+  for (const State state : {State::idle, State::ramping, State::active}) {
+    for (const bool warm : {false, true}) {
+      SessionStatus look = look_of(state, true);
+      look.is_held_back = true;
+      look.is_warm = warm;
+      look.force_n = 0.2;
+      EXPECT_EQ(state_line_of(look).state, SessionState::feeling);
+      EXPECT_EQ(state_line_of(look).words.toStdString(), "Feeling: forces are coming up");
+      look.feels = false;
+      EXPECT_EQ(state_line_of(look).state, SessionState::ready);
+    }
+  }
 }
 
 /// Whatever keeps the force off is said first; whether a fault has to be cleared, too, is told beside it.

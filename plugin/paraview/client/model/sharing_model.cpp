@@ -1,6 +1,5 @@
 #include "plugin/paraview/client/model/sharing_model.h"
 
-#include <algorithm>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -95,9 +94,13 @@ void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& pr
   session_.offer(prepared);
   const auto refused = std::make_shared<QString>();
   const auto has_waited = std::make_shared<bool>(false);
-  const auto change = [scene, has_waited](modes::Scene& now) {
+  const modes::Scene& latest = scene_.latest();
+  // An earlier scene that is shown may have looser limits than the user's.
+  const modes::Scene wanted =
+      scene_.shows_before() ? igtl::tightened(scene, latest.limits, latest.stiffness_n_per_m) : scene;
+  const auto change = [wanted, has_waited](modes::Scene& now) {
     // A limit that was lowered meanwhile stays.
-    now = *has_waited ? igtl::tightened(scene, now.limits, now.stiffness_n_per_m) : scene;
+    now = *has_waited ? igtl::tightened(wanted, now.limits, now.stiffness_n_per_m) : wanted;
   };
   scene_.edit(tr("Scene from 3D Slicer"), change, [refused](const QString& why) { *refused = why; });
   *has_waited = true;
@@ -106,12 +109,11 @@ void SharingModel::take_scene(const modes::Scene& scene, const PreparedScene& pr
 
 void SharingModel::take_marks(const std::vector<igtl::Point>& points) {
   igtl::internal::check_scan(marks_.has_scan());
-  const std::vector<igtl::Point> changed = igtl::changed_marks(points_of(marks_.marks()), points);
+  const std::vector<igtl::ChangedMark> changed = igtl::changed_marks(points_of(marks_.marks()), points);
   if (changed.empty()) return;
   marks_.edit(tr("Marks from 3D Slicer"), [&](Marks& now) {
-    for (const igtl::Point& point : changed) {
-      const auto known = std::ranges::find(now.points, point.name, &FeltMark::name);
-      (known == now.points.end() ? now.points.emplace_back() : *known) = mark_of(point);
+    for (const auto& [at, mark] : changed) {
+      (at < now.points.size() ? now.points[at] : now.points.emplace_back()) = mark_of(mark);
     }
   });
 }

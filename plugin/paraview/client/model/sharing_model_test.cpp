@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -139,6 +140,7 @@ TEST_F(SharingTest, NeitherForceNorLimitIsTheNetworks) {
   // Tightened here after it was turned on: that holds, too.
   model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 1.5; });
   TestClient client(sharing.port());
+  ASSERT_TRUE(comes([&] { return sharing.clients() == 1; })) << "what was edited is known to the clients";
   modes::Scene wild = model.scene();
   wild.name = "wild";
   wild.limits.force_n = 3;
@@ -224,6 +226,48 @@ TEST_F(SharingTest, TheSceneBeforeTheLastEditRaisesNoLimit) {
   EXPECT_EQ(model.scene().limits.force_n, 1);
 }
 
+/// A key that was let go holds no request up, even if the scene that belongs there cannot be read. That scene's limits
+/// hold.
+TEST_F(SharingTest, NoRequestWaitsForASceneThatCannotBeReadAgain) {
+  open_scan();
+  model.edit(QStringLiteral("Force"), [](modes::Scene& scene) {
+    scene.name = "unreadable";
+    scene.limits.force_n = 1;
+  });
+  model.show_before();
+  std::function<void(const QString&)> read;
+  model.set_read([&](const modes::Scene& scene, auto done) {
+    if (scene.name != "unreadable") return false;
+    read = std::move(done);
+    return true;
+  });
+  const auto client = a_client();
+  model.show_now();
+  ASSERT_TRUE(read);
+  std::exchange(read, nullptr)(QStringLiteral("the segment is gone"));
+  ASSERT_EQ(session.live().scene().limits.force_n, 3);
+  client->send(ball_of_labels("liver", glm::dvec3(0), 20));
+  ASSERT_TRUE(comes([&] { return read != nullptr; })) << "each change tries again";
+  std::exchange(read, nullptr)(QStringLiteral("the segment is gone"));
+  EXPECT_EQ(model.scene().structures.size(), 1U);
+  EXPECT_EQ(model.scene().limits.force_n, 1);
+  EXPECT_EQ(session.live().scene().limits.force_n, 1);
+}
+
+/// Only what takes effect waits for the user.
+TEST_F(SharingTest, WhatCannotBePreparedIsRefusedWhileAnEarlierSceneIsHeld) {
+  open_scan();
+  model.edit(QStringLiteral("Force"), [](modes::Scene& scene) { scene.limits.force_n = 1; });
+  model.show_before();
+  const auto client = a_client();
+  for (const char* const name : {"nothing", "no more"}) {
+    client->send(ball_of_labels(name, glm::dvec3(0), -1));
+    EXPECT_EQ(next_status(*client, "refused"),
+              std::string("refused: ") + name + ": there are no labels or structures in it");
+  }
+  EXPECT_FALSE(model.is_settled()) << "the key is still held";
+}
+
 /// What the panel itself proposes does not wait behind it.
 TEST_F(SharingTest, ARequestThatWaitsForFilesRaisesNoLimitThatIsLoweredMeanwhile) {
   open_scan();
@@ -273,14 +317,66 @@ TEST_F(SharingTest, MarksGoBothWaysAndNoneIsLost) {
        .content = igtl::content_of(std::vector<igtl::Point>{{.name = "from Slicer", .position = {-4, -5, 6}}})});
   ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 2; }));
   EXPECT_EQ(marks.marks().points[0].boundary, "skin");
+  EXPECT_EQ(marks.marks().points[0].value, 40);
   EXPECT_EQ(marks.marks().points[1].name, "from Slicer");
+  EXPECT_TRUE(std::isnan(marks.marks().points[1].value)) << "nobody felt there: 0 HU would be water";
   EXPECT_LT(glm::distance(marks.marks().points[1].position_mm, glm::dvec3(4, 5, 6)), 1e-4);
   // One that is moved there is no longer where it was felt.
   points[0].position.x += 1;
   client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(points)});
   ASSERT_TRUE(comes([&] { return marks.marks().points[0].position_mm.x < 0.5; }));
   EXPECT_EQ(marks.marks().points[0].boundary, "");
+  EXPECT_TRUE(std::isnan(marks.marks().points[0].value));
   EXPECT_EQ(marks.marks().points.size(), 2U);
+  for (const FeltMark& one : marks_of_text(kept.text("Marks")).at("a scan").points) {
+    EXPECT_TRUE(std::isnan(one.value)) << one.name << ": so it is kept, too";
+  }
+}
+
+/// Two may have one name, and a long name comes back cut: each keeps what was felt there.
+TEST_F(SharingTest, MarksThatAreOnlySentBackStayAsTheyWereFelt) {
+  open_scan();
+  const std::string long_name = std::string(63, 'n') + "\u00e4 and more";
+  marks.edit(QStringLiteral("Mark"), [&](Marks& now) {
+    for (const std::string& name : {std::string("edge"), std::string("edge"), long_name}) {
+      const auto n = static_cast<double>(now.points.size());
+      FeltMark felt;
+      felt.name = name;
+      felt.boundary = "skin";
+      felt.position_mm = {n, 0, 0};
+      felt.value = 40 + n;
+      felt.force_n = 1 + n;
+      now.points.push_back(felt);
+    }
+  });
+  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
+  TestClient client(sharing.port());
+  std::vector<igtl::Point> points;
+  ASSERT_TRUE(comes([&] {
+    if (const auto sent = next(client, "POINT", igtl::marks_name)) points = igtl::points_of(sent->content);
+    return points.size() == 3;
+  }));
+  std::vector<igtl::Point> back(points.rbegin(), points.rend());
+  back.push_back({.name = "last", .position = {0, 1, 0}});
+  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(back)});
+  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 4; }));
+  for (std::size_t n = 0; n < 3; ++n) {
+    const FeltMark& felt = marks.marks().points[n];
+    EXPECT_EQ(felt.name, n < 2 ? "edge" : long_name);
+    EXPECT_EQ(felt.boundary, "skin");
+    EXPECT_EQ(felt.position_mm.x, static_cast<double>(n));
+    EXPECT_EQ(felt.value, 40 + static_cast<double>(n));
+    EXPECT_EQ(felt.force_n, 1 + static_cast<double>(n));
+  }
+  // Each that is moved there is the one that is moved here.
+  back[0].position.x = -10;
+  back[1].position.x = -11;
+  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(back)});
+  ASSERT_TRUE(comes([&] { return marks.marks().points[2].position_mm.x == 10; }));
+  EXPECT_EQ(marks.marks().points.size(), 4U);
+  EXPECT_EQ(marks.marks().points[2].name, long_name);
+  EXPECT_EQ(marks.marks().points[1].position_mm.x, 11);
+  EXPECT_EQ(marks.marks().points[0].value, 40);
 }
 
 TEST_F(SharingTest, AMarkWithoutANameGetsOneThatIsFree) {

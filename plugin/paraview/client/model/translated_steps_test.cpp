@@ -87,7 +87,14 @@ TEST(TranslatedState, EachLineIs) {
                 look.clutched = clutched;
                 look.kept_off = look.homing = QString::fromUtf8(text);
                 look.tick.safety = pack_safety(static_cast<device::State>(state), fault);
-                EXPECT_TRUE(is_translated(state_line_of(look).words)) << state_line_of(look).words.toStdString();
+                for (const bool may_push : {false, true}) {
+                  look.may_push = may_push;
+                  // Once as a stylus that is lost, which has no more to tell.
+                  for (const auto stylus : {device::State::disconnected, static_cast<device::State>(state)}) {
+                    look.tick.stylus_state = static_cast<std::uint32_t>(stylus);
+                    EXPECT_TRUE(is_translated(state_line_of(look).words)) << state_line_of(look).words.toStdString();
+                  }
+                }
               }
             }
           }

@@ -143,7 +143,7 @@ QLayout* Footer::make_buttons() {
   feel_->setObjectName(QStringLiteral("palpateFeel"));
   feel_->setMinimumHeight(38);
   connect(feel_, &QPushButton::clicked, this,
-          [this] { state_line_of(session_.last()).fault_latched ? session_.clear_fault() : session_.feel(); });
+          [this] { state_line_of(session_.last()).needs_clearing() ? session_.clear_fault() : session_.feel(); });
   row->addWidget(feel_, 1);
   mark_ = new QPushButton(this);
   mark_->setObjectName(QStringLiteral("palpateMark"));
@@ -207,8 +207,8 @@ void Footer::set_felt(const QString& words, bool scan_open) {
 
 void Footer::show_state(const SessionStatus& look) {
   const StateLine line = state_line_of(look);
-  feel_->setText(line.fault_latched ? (line.lost ? tr("Open the stylus again") : tr("Clear fault")) : tr("Feel"));
-  feel_->setEnabled(line.fault_latched || line.state == SessionState::ready);
+  feel_->setText(line.lost ? tr("Open the stylus again") : line.fault_latched ? tr("Clear fault") : tr("Feel"));
+  feel_->setEnabled(line.needs_clearing() || line.state == SessionState::ready);
   const QString kept = line.fault_latched ? session_.last_fault() : QString();
   const QString tip = kept.isEmpty() ? line.words : line.words + QLatin1Char('\n') + kept;
   if (state_->toolTip() != tip) state_->setToolTip(tip);
@@ -256,10 +256,11 @@ void Footer::show_look(const SessionStatus& look) {
   const TickRecord& tick = look.tick;
   strip_->set_limit(model_.scene().limits.force_n);
   strip_->add(look.peak_n);
-  force_->setText(tr("%1 N").arg(look.force_n, 0, 'f', 2));
+  force_->setText(look.may_push ? tr("unknown") : tr("%1 N").arg(look.force_n, 0, 'f', 2));
   const double depth_mm = glm::length(look.proxy_mm - look.probe_mm);
   const QString depth = tr("%1 mm").arg(depth_mm, 0, 'f', 1);
-  const QString past = look.force_n == 0   ? tr("no boundary touched")
+  const bool touches = glm::length(vector_of(tick.sent_n)) > 0;  // as the session has it, whatever the device gets
+  const QString past = !touches            ? tr("no boundary touched")
                        : look.held.empty() ? tr("%1 from the proxy").arg(depth)
                                            : tr("%1 past %2").arg(depth, QString::fromStdString(look.held));
   // The tool tip has the whole of a shortened name; depth and error stay.

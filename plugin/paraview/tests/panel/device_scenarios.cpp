@@ -109,7 +109,8 @@ void a_lost_stylus_comes_back() {
   wait_for(
       "the loss is told",
       [] {
-        return label("palpateState").startsWith("Stopped: The stylus was unplugged") &&
+        return label("palpateState").startsWith("Stopped: ") &&
+               label("palpateState").contains("The stylus was unplugged") &&
                find<QPushButton>("palpateFeel").text() == "Open the stylus again";
       },
       20);
@@ -119,6 +120,20 @@ void a_lost_stylus_comes_back() {
   wait_for(
       "it is back, without a force", [] { return label("palpateState").startsWith("Ready: no force"); }, 20);
   expect(find<QPushButton>("palpateFeel").text() == "Feel", "only Feel turns the force on");
+  wait_ms(500);  // at rest
+  PluggedDevice::device().unplugged = 1;
+  wait_for(
+      "a loss at rest is told, too",
+      [] {
+        return label("palpateState").startsWith("Stopped: The stylus was unplugged") &&
+               find<QPushButton>("palpateFeel").text() == "Open the stylus again" &&
+               find<QPushButton>("palpateFeel").isEnabled();
+      },
+      20);
+  PluggedDevice::device().unplugged = 0;
+  click("palpateFeel");
+  wait_for(
+      "it is back again", [] { return label("palpateState").startsWith("Ready: no force"); }, 20);
   turn_forces_on();
 }
 
