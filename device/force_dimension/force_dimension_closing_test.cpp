@@ -68,6 +68,12 @@ TEST_F(ForceDimensionClosing, TheyAreStoppedOnlyIfEachIs) {
     EXPECT_EQ(drd->opened, drd->closed);
     for (int one = 0; one < 3; ++one) EXPECT_EQ(stop_force_dimension(std::to_string(1234 + one)), one != failing);
   }
+  drd->unstoppable = -1;
+  for (int held = 0; held < 3; ++held) {
+    drd->unopenable = held;
+    EXPECT_FALSE(stop_force_dimension("")) << "it may be the one that pushes";
+    for (int one = 0; one < 3; ++one) EXPECT_EQ(stop_force_dimension(std::to_string(1234 + one)), one != held);
+  }
   drd->devices = 0;
   EXPECT_FALSE(stop_force_dimension("")) << "there is none";
 }

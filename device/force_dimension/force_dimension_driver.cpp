@@ -257,7 +257,10 @@ bool stop_force_dimension(const std::string& address) {
   const int count = drd.get_device_count();
   for (int i = 0; i < count; ++i) {
     const int id = drd.open(static_cast<char>(i));
-    if (id < 0) continue;
+    if (id < 0) {
+      if (address.empty()) ++meant;  // it may be the one that pushes
+      continue;
+    }
     if (address.empty() || address == drd.serial_of(static_cast<char>(id))) {
       ++meant;
       if (drd.dhd_stop(static_cast<char>(id)) >= 0) ++stopped;

@@ -59,7 +59,8 @@ class ForceDimensionDriver final : public Driver {
 std::unique_ptr<LinkStylus> make_force_dimension_with(const ForceDimensionSettings& settings,
                                                       const LinkStylusOptions& options, const DriverClock& clock = {});
 
-/// Opens the device, switches its forces off and its brakes on, and closes it. Throws std::runtime_error.
+/// Opens the device (without an address: each), switches its forces off and its brakes on, and closes it. Whether none
+/// that is meant was left out. Throws std::runtime_error.
 bool stop_force_dimension(const std::string& address);
 
 }  // namespace palpate::device

@@ -12,7 +12,7 @@
 namespace palpate::device {
 namespace {
 
-constexpr double exchange_s = 1e-3;
+constexpr double each_s = 1e-3;
 constexpr double newtons = 3;
 
 ForceOnDevice told_by(const LinkStylus& stylus) {
@@ -43,7 +43,7 @@ TEST(ForceOnDevice, WhatIsToldIsWhatTheDeviceHas) {
         left = static_cast<int>((bench.answer == ForceAnswer::taken ? 300 : 40) * chance(random));
       }
       if (chance(random) < 0.8) stylus->write_force(Vec3(0, asked, 0));
-      stylus->service(exchange_s);
+      stylus->service(each_s);
       const ForceOnDevice told = told_by(*stylus);
       const double has = glm::length(bench.force);
       if (told.state == OnDevice::unknown) continue;
@@ -90,7 +90,7 @@ TEST(ForceOnDevice, OfALostDeviceItIsKnownOnlyIfAZeroWasTaken) {
       one.happens(bench);
       for (int n = 0; n < 200; ++n) {
         stylus->write_force(Vec3(0, asked, 0));
-        stylus->service(exchange_s);
+        stylus->service(each_s);
       }
       EXPECT_EQ(stylus->fault(), one.fault) << one.what;
       const ForceOnDevice told = told_by(*stylus);
@@ -114,7 +114,7 @@ TEST(ForceOnDevice, LessThanAskedIsSaidToBeHeldBack) {
   } cases[] = {
       {"late servo",
        [](LinkBench& /*bench*/, LinkStylus& stylus) {
-         for (int n = 0; n < 40; ++n) stylus.service(exchange_s);
+         for (int n = 0; n < 40; ++n) stylus.service(each_s);
        }},
       {"doubtful pose",
        [](LinkBench& bench, LinkStylus& stylus) {
@@ -125,7 +125,7 @@ TEST(ForceOnDevice, LessThanAskedIsSaidToBeHeldBack) {
       {"withheld",
        [](LinkBench& bench, LinkStylus& stylus) {
          bench.answer = ForceAnswer::withheld;
-         push(bench, stylus, newtons, 2 * exchange_s);
+         push(bench, stylus, newtons, 2 * each_s);
          bench.answer = ForceAnswer::taken;
        }},
   };
@@ -138,7 +138,7 @@ TEST(ForceOnDevice, LessThanAskedIsSaidToBeHeldBack) {
     const double began = bench.time;
     double before = 0;
     while (bench.time < began + 0.9 * ceiling::resume_ramp_s) {
-      push(bench, *stylus, newtons, 0.5 * exchange_s);
+      push(bench, *stylus, newtons, 0.5 * each_s);
       const ForceOnDevice told = told_by(*stylus);
       EXPECT_TRUE(told.is_held_back) << one.what << ", " << bench.time - began;
       EXPECT_LT(told.newtons, newtons) << one.what;
@@ -175,7 +175,7 @@ TEST(ForceOnDevice, OpenedAnewOrWithoutMotorsItIsNone) {
   const auto stylus = unthreaded(bench);
   push(bench, *stylus, newtons, 0.5);
   bench.lost = true;
-  stylus->service(exchange_s);
+  stylus->service(each_s);
   ASSERT_GT(told_by(*stylus).newtons, 0);
   bench.lost = false;
   stylus->open();
@@ -189,9 +189,9 @@ TEST(ForceOnDevice, OpenedAnewOrWithoutMotorsItIsNone) {
   pointing.force_axes = 0;
   LinkStylus hand(pointing, std::make_unique<LinkBenchDriver>(mouse), {.threaded = false, .asleep = &asleep});
   hand.open();
-  hand.service(exchange_s);
+  hand.service(each_s);
   mouse.lost = true;
-  hand.service(exchange_s);
+  hand.service(each_s);
   EXPECT_EQ(told_by(hand).state, OnDevice::zero_taken);
 }
 

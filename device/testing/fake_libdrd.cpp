@@ -76,7 +76,7 @@ const char* dhdErrorGetLastStr() {
   return "a fault of the fake";
 }
 int drdOpenID(char id) {
-  if (id >= state.devices) return -1;
+  if (id >= state.devices || id == state.unopenable) return -1;
   state.opened = state.opened + 1;
   during("drdOpenID");
   return id;

@@ -25,6 +25,7 @@ struct FakeDrd {
   int forces_on = 0;
   int stopped = 0;
   int unstoppable = -1;  // the device, of several, that dhdStop() does not stop
+  int unopenable = -1;   // that another program holds
   int closed = 0;
   int failing = 0;             // every call fails
   char failing_call[48] = "";  // or only calls of this name; a refused force leaves the previous one
