@@ -286,9 +286,10 @@ const TickRecord& Session::tick(const Beat& beat) noexcept {
   take_commands();
   go_over_to_stylus();
   take_setting(beat.time_s);
-  // Its state before its pose: a stylus that is ready has a pose by then.
-  const device::State state = held_->stylus->state();
+  // A stylus that is ready before its pose is read has a pose.
+  const device::State before = held_->stylus->state();
   const device::Reading reading = held_->stylus->read();
+  const device::State state = can_push(before) ? held_->stylus->state() : before;
   orientation_.store(reading.orientation);
   lap(Stage::read);
 

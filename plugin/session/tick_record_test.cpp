@@ -144,8 +144,8 @@ TEST(TickRecord, SaysWhatTheStepTheFilterAndTheStylusDid) {
   for (const auto& [what, often] : times) EXPECT_GT(often, 0) << what;
 }
 
-/// While a scene comes in that moves the reach, the proxy is where the reach is on its way; its value is of the scan
-/// that comes in.
+/// While a scene comes in that moves the reach, as recordings of version 0.1.0 have it, the proxy is where the reach is
+/// on its way; its value is of the scan that comes in.
 TEST(TickRecord, WhileTheReachMovesItsValueIsOfWhereTheProxyIs) {
   const auto left = testing::slab(), coming = testing::slab(3);
   const modes::Scene scene = modes::load_scene("ct-skin-and-bone");
@@ -157,7 +157,8 @@ TEST(TickRecord, WhileTheReachMovesItsValueIsOfWhereTheProxyIs) {
     return Snapshot{.plan = std::make_shared<const modes::Plan>(modes::make_plan(scene, source->available(), reach)),
                     .source = source,
                     .limits = limits_for(scene.limits, device::SimulatedStylus().specification()),
-                    .change_s = 0.2};
+                    .change_s = 0.2,
+                    .is_replayed = true};
   };
   Session session(snapshot(left, from), testing::stylus(testing::hold()));
   for (int n = 0; n < 800; ++n) session.tick();
