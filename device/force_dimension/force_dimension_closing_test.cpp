@@ -1,5 +1,6 @@
 /// Every device that is opened is closed, however its connection ends.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
