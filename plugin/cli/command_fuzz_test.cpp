@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "io/testing/working_folder.h"
 #include "plugin/testing/command_rig.h"
 
 namespace palpate::plugin {
@@ -54,20 +55,6 @@ const Words& odd_words() {
   return all;
 }
 
-/// The working folder is another one while this lives.
-class Elsewhere {
- public:
-  explicit Elsewhere(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
-    std::filesystem::current_path(folder);
-  }
-  Elsewhere(const Elsewhere&) = delete;
-  Elsewhere& operator=(const Elsewhere&) = delete;
-  ~Elsewhere() { std::filesystem::current_path(before_); }
-
- private:
-  std::filesystem::path before_;
-};
-
 std::string quoted(const std::string& word) {
   return "'" + word + "'";
 }
@@ -77,7 +64,7 @@ TEST(CommandFuzz, AnswersWhateverItIsAskedWithAnExitCodeAndAReason) {
   // Some of the words name files that are then written: not in the folder that the tests are run in.
   const auto here = fresh_path("here");
   std::filesystem::create_directories(here);
-  const Elsewhere elsewhere(here);
+  const io::testing::WorkingFolder elsewhere(here);
   const std::string recorded = (fresh_path("recorded")).string();
   ASSERT_EQ(palpate("probe " + phantom().string() + forehead + "--seconds 0.1 -o " + recorded).exit, 0);
   const auto& all = commands(phantom().string(), recorded + "/recording.h5");

@@ -35,6 +35,14 @@ struct SlowFolder {
   }
 };
 
+/// Whether the folder is being loaded, because a client asked for it.
+bool begins(SlowFolder& slow, SharedSession& shared, TestClient& client) {
+  shared.load = [&slow](const std::string&) { return slow.load(); };
+  client.send_text(folder_name, "/scans/slow");
+  auto begun = slow.begun.get_future();
+  return shared.comes([&] { return begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
+}
+
 TEST(OpenIgtRequests, AFolderIsLoadedAndASceneGoesOn) {
   SharedSession shared;
   std::string asked;
@@ -54,11 +62,8 @@ TEST(OpenIgtRequests, AFolderIsLoadedAndASceneGoesOn) {
 TEST(OpenIgtRequests, OfWhatComesWhileOneIsPreparedTheNewestIsFelt) {
   SharedSession shared;
   SlowFolder slow;
-  shared.load = [&](const std::string&) { return slow.load(); };
   TestClient client(shared.server.port());
-  client.send_text(folder_name, "/scans/slow");
-  auto begun = slow.begun.get_future();
-  ASSERT_TRUE(shared.comes([&] { return begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  ASSERT_TRUE(begins(slow, shared, client));
   constexpr int scenes = 40;
   modes::Scene scene = modes::load_scene("ct-skin-and-bone");
   for (int n = 0; n < scenes; ++n) {
@@ -134,11 +139,8 @@ TEST(OpenIgtRequests, ASceneThatWaitsIsRefusedIfTheOwnerChangesTheSceneMeanwhile
     SCOPED_TRACE(static_cast<int>(owner));
     SharedSession shared;
     SlowFolder slow;
-    shared.load = [&](const std::string&) { return slow.load(); };
     TestClient client(shared.server.port());
-    client.send_text(folder_name, "/scans/slow");
-    auto begun = slow.begun.get_future();
-    EXPECT_TRUE(shared.comes([&] { return begun.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+    ASSERT_TRUE(begins(slow, shared, client));
     const modes::Scene first = shared.session.scene();
     modes::Scene theirs = first, own = first;
     theirs.name = "a client's";

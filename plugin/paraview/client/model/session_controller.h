@@ -44,7 +44,7 @@ struct SessionStatus {
   std::optional<NearestStructure> nearest;  ///< of the structures that the scene reads
   double force_n = 0;         ///< on the device, which may be another than the tick's; the last one known of a lost one
   bool is_warm = false;       ///< the motors' heat limits the force
-  bool is_held_back = false;  ///< the device gets less than the tick's force for now, for another reason than heat
+  bool is_held_back = false;  ///< the device gets less than the tick's force, for another reason than heat
   bool may_push = false;      ///< the stylus is lost, and it is not known that its force has ended
   double peak_n = 0;          ///< the largest since the last poll
   double tick_us = 0;         ///< median since the last poll

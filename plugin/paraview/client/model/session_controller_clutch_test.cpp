@@ -147,22 +147,33 @@ TEST_F(ControlledSession, AMappingThatChangesTakesTheForce) {
   EXPECT_TRUE(last().feels);
 }
 
-/// The clutch's own step waits for structures that are being read; so does the force.
-TEST_F(ControlledSession, AClutchEndsWhenItsStepDoes) {
-  for (const bool refused : {false, true}) {
-    SCOPED_TRACE(refused);
+/// The next step of its scene waits for files, until done() is called.
+struct ClutchOfASlowScene : ControlledSession {
+  /// Whether the hand is parted from a patient that was felt.
+  bool clutches() {
     connect_simulated();
-    ASSERT_TRUE(goes_to(outside));
+    if (!goes_to(outside)) return false;
     session.feel();
-    ASSERT_TRUE(comes([this] { return last().feels; }));
-    std::function<void(const QString&)> done;
-    bool reads = true;
-    model.set_read([&](const modes::Scene&, auto then) {
+    if (!comes([this] { return last().feels; })) return false;
+    reads = true;
+    done = nullptr;
+    model.set_read([this](const modes::Scene&, auto then) {
       if (reads) done = then;
       return reads;
     });
     session.clutch();
-    ASSERT_TRUE(comes([this] { return !last().feels; }));
+    return comes([this] { return !last().feels; });
+  }
+
+  std::function<void(const QString&)> done;
+  bool reads = true;
+};
+
+/// The clutch's own step waits for structures that are being read; so does the force.
+TEST_F(ClutchOfASlowScene, AClutchEndsWhenItsStepDoes) {
+  for (const bool refused : {false, true}) {
+    SCOPED_TRACE(refused);
+    ASSERT_TRUE(clutches());
     session.unclutch(last().workspace.rotation);
     polls(5);
     EXPECT_TRUE(session.is_clutched());
@@ -183,21 +194,10 @@ TEST_F(ControlledSession, AClutchEndsWhenItsStepDoes) {
 }
 
 /// The key is down again before the step of the first clutch is done: hand and patient stay apart until it is let go.
-TEST_F(ControlledSession, AClutchThatIsPressedAgainBeforeItEndsGoesOn) {
+TEST_F(ClutchOfASlowScene, AClutchThatIsPressedAgainBeforeItEndsGoesOn) {
   for (const bool refused : {false, true}) {
     SCOPED_TRACE(refused);
-    connect_simulated();
-    ASSERT_TRUE(goes_to(outside));
-    session.feel();
-    ASSERT_TRUE(comes([this] { return last().feels; }));
-    std::function<void(const QString&)> done;
-    bool reads = true;
-    model.set_read([&](const modes::Scene&, auto then) {
-      if (reads) done = then;
-      return reads;
-    });
-    session.clutch();
-    ASSERT_TRUE(comes([this] { return !last().feels; }));
+    ASSERT_TRUE(clutches());
     const glm::dvec3 stays = last().probe_mm;
     session.unclutch(last().workspace.rotation);
     ASSERT_TRUE(done);
@@ -212,7 +212,6 @@ TEST_F(ControlledSession, AClutchThatIsPressedAgainBeforeItEndsGoesOn) {
     session.unclutch(last().workspace.rotation);
     EXPECT_FALSE(session.is_clutched());
     EXPECT_TRUE(comes([this] { return last().feels; }));
-    model.set_read({});
     session.disconnect_stylus();
   }
 }

@@ -16,81 +16,15 @@
 #include "plugin/openigtlink/names.h"
 #include "plugin/openigtlink/testing/shared_session.h"
 #include "plugin/openigtlink/testing/stepped_server.h"
-#include "plugin/paraview/client/model/testing/application.h"
-#include "plugin/paraview/client/model/testing/made_text.h"
+#include "plugin/paraview/client/model/testing/sharing_rig.h"
 
 namespace palpate::plugin {
 namespace {
 
 using igtl::testing::ball_of_labels;
 using igtl::testing::TestClient;
-
 using testing::comes;
-
-struct SharingTest : testing::WithApplication, ::testing::Test {
-  SharingTest() {
-    session.set_clock([](double period_s) { return std::make_unique<plugin::testing::UnhurriedClock>(period_s); });
-    model.open(modes::load_scene("ct-skin-and-bone"));
-    QObject::connect(&sharing, &SharingModel::folder_wanted, [this](const QString& name) { folder = name; });
-  }
-  ~SharingTest() override {
-    sharing.turn_off();
-    session.disconnect_stylus();
-  }
-  void open_scan() {
-    session.set_scan(igtl::testing::ball_of_tissue(), {});
-    marks.set_scan("a scan");
-  }
-  /// The next message of that type and device, while events are handled.
-  std::optional<igtl::Message> next(TestClient& client, std::string_view type, std::string_view device) {
-    std::optional<igtl::Message> found;
-    comes([&] {
-      const auto message = client.next(2);
-      if (message && message->type == type && message->device == device) found = message;
-      return found.has_value();
-    });
-    return found;
-  }
-  /// Turned on, with what every client gets first behind it.
-  std::unique_ptr<TestClient> a_client() {
-    EXPECT_EQ(sharing.turn_on(0).toStdString(), "");
-    auto client = std::make_unique<TestClient>(sharing.port());
-    EXPECT_TRUE(next(*client, "POINT", igtl::marks_name));
-    return client;
-  }
-  /// A scene of a client's, of the usual limits.
-  modes::Scene theirs() const {
-    modes::Scene scene = modes::load_scene("ct-skin-and-bone");
-    scene.name = "theirs";
-    return scene;
-  }
-  /// Returns when it is long ago that the scene came.
-  void send_and_wait(TestClient& client, const modes::Scene& scene) {
-    client.send_text(igtl::scene_name, modes::to_json(scene));
-    client.send({.type = "GET_POINT", .device = igtl::marks_name, .content = {}});
-    EXPECT_TRUE(next(client, "POINT", igtl::marks_name)) << "the answer to what was sent after the scene";
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
-    comes([&] { return std::chrono::steady_clock::now() > end; });
-  }
-  std::string next_status(TestClient& client, const std::string& name) {
-    std::string text;
-    comes([&] {
-      const auto message = next(client, "STATUS", igtl::program_name);
-      if (!message) return true;
-      const igtl::Status status = igtl::status_of(message->content);
-      if (status.name == name) text = status.text;
-      return !text.empty();
-    });
-    return text;
-  }
-
-  MadeText kept;
-  SceneModel model{kept};
-  MarksModel marks{kept};
-  SessionController session{model};
-  SharingModel sharing{session, model, marks};
-  QString folder;
-};
+using testing::SharingTest;
 
 TEST_F(SharingTest, AClientSeesTheSceneAndThatNoStylusIsConnected) {
   open_scan();
@@ -290,113 +224,6 @@ TEST_F(SharingTest, ARequestThatWaitsForFilesRaisesNoLimitThatIsLoweredMeanwhile
   EXPECT_EQ(model.scene().name, "theirs");
   EXPECT_EQ(model.scene().limits.force_n, 1);
   EXPECT_EQ(model.scene().stiffness_n_per_m, 200);
-}
-
-/// A list of marks may be older than the last press here: what it leaves out stays.
-TEST_F(SharingTest, MarksGoBothWaysAndNoneIsLost) {
-  open_scan();
-  FeltMark felt;
-  felt.name = "Mark 1";
-  felt.boundary = "skin";
-  felt.position_mm = {1, 2, 3};
-  felt.value = 40;
-  marks.edit(QStringLiteral("Mark"), [&](Marks& now) { now.points.push_back(felt); });
-  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
-  TestClient client(sharing.port());
-  std::vector<igtl::Point> points;
-  ASSERT_TRUE(comes([&] {
-    if (const auto sent = next(client, "POINT", igtl::marks_name)) points = igtl::points_of(sent->content);
-    return points.size() == 1;
-  }));
-  EXPECT_EQ(points[0].name, "Mark 1");
-  EXPECT_EQ(points[0].group, "skin");
-  EXPECT_LT(glm::distance(points[0].position, glm::dvec3(-1, -2, 3)), 1e-4) << "RAS";
-  client.send(
-      {.type = "POINT",
-       .device = igtl::marks_name,
-       .content = igtl::content_of(std::vector<igtl::Point>{{.name = "from Slicer", .position = {-4, -5, 6}}})});
-  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 2; }));
-  EXPECT_EQ(marks.marks().points[0].boundary, "skin");
-  EXPECT_EQ(marks.marks().points[0].value, 40);
-  EXPECT_EQ(marks.marks().points[1].name, "from Slicer");
-  EXPECT_TRUE(std::isnan(marks.marks().points[1].value)) << "nobody felt there: 0 HU would be water";
-  EXPECT_LT(glm::distance(marks.marks().points[1].position_mm, glm::dvec3(4, 5, 6)), 1e-4);
-  // One that is moved there is no longer where it was felt.
-  points[0].position.x += 1;
-  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(points)});
-  ASSERT_TRUE(comes([&] { return marks.marks().points[0].position_mm.x < 0.5; }));
-  EXPECT_EQ(marks.marks().points[0].boundary, "");
-  EXPECT_TRUE(std::isnan(marks.marks().points[0].value));
-  EXPECT_EQ(marks.marks().points.size(), 2U);
-  for (const FeltMark& one : marks_of_text(kept.text("Marks")).at("a scan").points) {
-    EXPECT_TRUE(std::isnan(one.value)) << one.name << ": so it is kept, too";
-  }
-}
-
-/// Two may have one name, and a long name comes back cut: each keeps what was felt there.
-TEST_F(SharingTest, MarksThatAreOnlySentBackStayAsTheyWereFelt) {
-  open_scan();
-  const std::string long_name = std::string(63, 'n') + "\u00e4 and more";
-  marks.edit(QStringLiteral("Mark"), [&](Marks& now) {
-    for (const std::string& name : {std::string("edge"), std::string("edge"), long_name}) {
-      const auto n = static_cast<double>(now.points.size());
-      FeltMark felt;
-      felt.name = name;
-      felt.boundary = "skin";
-      felt.position_mm = {n, 0, 0};
-      felt.value = 40 + n;
-      felt.force_n = 1 + n;
-      now.points.push_back(felt);
-    }
-  });
-  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
-  TestClient client(sharing.port());
-  std::vector<igtl::Point> points;
-  ASSERT_TRUE(comes([&] {
-    if (const auto sent = next(client, "POINT", igtl::marks_name)) points = igtl::points_of(sent->content);
-    return points.size() == 3;
-  }));
-  std::vector<igtl::Point> back(points.rbegin(), points.rend());
-  back.push_back({.name = "last", .position = {0, 1, 0}});
-  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(back)});
-  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 4; }));
-  for (std::size_t n = 0; n < 3; ++n) {
-    const FeltMark& felt = marks.marks().points[n];
-    EXPECT_EQ(felt.name, n < 2 ? "edge" : long_name);
-    EXPECT_EQ(felt.boundary, "skin");
-    EXPECT_EQ(felt.position_mm.x, static_cast<double>(n));
-    EXPECT_EQ(felt.value, 40 + static_cast<double>(n));
-    EXPECT_EQ(felt.force_n, 1 + static_cast<double>(n));
-  }
-  // Each that is moved there is the one that is moved here.
-  back[0].position.x = -10;
-  back[1].position.x = -11;
-  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(back)});
-  ASSERT_TRUE(comes([&] { return marks.marks().points[2].position_mm.x == 10; }));
-  EXPECT_EQ(marks.marks().points.size(), 4U);
-  EXPECT_EQ(marks.marks().points[2].name, long_name);
-  EXPECT_EQ(marks.marks().points[1].position_mm.x, 11);
-  EXPECT_EQ(marks.marks().points[0].value, 40);
-}
-
-TEST_F(SharingTest, AMarkWithoutANameGetsOneThatIsFree) {
-  open_scan();
-  marks.edit(QStringLiteral("Mark"), [](Marks& now) { now.points.push_back({.name = "Mark 1"}); });
-  ASSERT_EQ(sharing.turn_on(0).toStdString(), "");
-  TestClient client(sharing.port());
-  client.send({.type = "POINT",
-               .device = igtl::marks_name,
-               .content = igtl::content_of(std::vector<igtl::Point>{{.position = {1, 0, 0}}})});
-  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 2; }));
-  EXPECT_EQ(marks.marks().points[1].name, "Mark 2");
-  // The same list again is no step; the one after it tells that it came.
-  const std::size_t steps = kept.steps.size();
-  std::vector<igtl::Point> known{{.name = "Mark 2", .position = {1, 0, 0}}};
-  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(known)});
-  known.push_back({.name = "last", .position = {0, 1, 0}});
-  client.send({.type = "POINT", .device = igtl::marks_name, .content = igtl::content_of(known)});
-  ASSERT_TRUE(comes([&] { return marks.marks().points.size() == 3; }));
-  EXPECT_EQ(kept.steps.size(), steps + 1);
 }
 
 /// Such as one of flow, on a scan of one value: nothing changes, and the client learns why.
