@@ -172,6 +172,7 @@ void Session::take_commands() noexcept {
   }
   if ((tick_.commands & command::clear_fault) != 0) {
     device::clear_fault(safety_);
+    arm_again_ = false;
   }
   if ((tick_.commands & command::disarm) != 0) {
     device::disarm(safety_);

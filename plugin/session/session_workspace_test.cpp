@@ -182,6 +182,23 @@ TEST(SessionWorkspace, WhatIsDisarmedMeanwhileStaysSo) {
   }
 }
 
+/// A fault on the way is cleared without a force, like any other.
+TEST(SessionWorkspace, AFaultMeanwhileIsClearedWithoutAForce) {
+  Session session(placed(0), presses_twice());
+  const auto held = presses_twice();
+  session.change_stylus(held);
+  for (int n = 0; n < 1500; ++n) session.tick();
+  session.publish(placed(1));
+  session.tick();
+  held->inject(device::SimulatedFault::not_a_number);
+  session.tick();
+  ASSERT_EQ(session.fault(), device::Fault::pose_not_finite);
+  held->inject(device::SimulatedFault::none);
+  session.clear_fault();
+  for (int n = 0; n < 4000; ++n) ASSERT_EQ(sent_n(session.tick()), 0) << n;
+  EXPECT_EQ(session.fault(), device::Fault::none);
+}
+
 /// Against the session itself: a replay gives each command and each snapshot before the tick in which it took effect.
 TEST(SessionWorkspace, IsReplayedToTheBit) {
   std::mt19937 random(7);
