@@ -235,7 +235,6 @@ void Requests::finish(const Change& change) {
     throw;
   }
   if (!change.map.empty()) received_.use(change.map, change.file);
-  plan_ = session_.plan();
   scene_ = modes::to_json(session_.scene());
 }
 

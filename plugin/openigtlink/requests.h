@@ -109,8 +109,7 @@ class Requests {
   Changes changes_;
   modes::Limits limits_;
   double stiffness_n_per_m_ = 0;
-  std::shared_ptr<const modes::Plan>
-      plan_;  // of the scene of the latest request, or of the scene whose limits are kept
+  std::shared_ptr<const modes::Plan> plan_;  // of the scene that was looked at last
   std::deque<std::shared_ptr<const Server::Request>> waiting_;
   std::shared_ptr<const Server::Request> asked_;     // the latest one begun
   std::shared_ptr<const modes::Plan> begun_on_;      // of the scene that it changes: every scene has its own plan
